@@ -10,6 +10,7 @@ from pytest import approx
 from scenes import GROUND, carriage, done, options, run, system
 from tiers import every
 
+import adamslite as al
 from adamslite.analyses.clock import changes
 from adamslite.analyses.clock.clock import Clock
 from adamslite.analyses.clock.enclosures import enclose
@@ -375,3 +376,15 @@ def test_a_guard_that_becomes_zero_without_a_slope_still_decides(law: str):
     """IF jumps where it is zero, or where it passes zero as a cube does."""
     results = done(pushed(law), 2.0, 20, **options("RADAU", 1e-6))
     assert results["POINT_MASS/2.vx"][-1] == approx(PLATEAUS[law], abs=1e-4)
+
+
+@pytest.mark.parametrize("formula", ["GSTIFF", "RADAU", "RKF45"])
+def test_a_step_of_a_step_goes_on_in_a_run_that_begins_near_its_end(formula: str):
+    """From 1.1 s on the outer D - 1 is -0.01 at most, and its round-off still that of 1."""
+    runs = "SIMULATE/DYNAMIC, END=1.1, STEPS=2\nSIMULATE/DYNAMIC, END=1.4, STEPS=2\nEND\n"
+    deck = al.read(pushed(NESTED["twice"][0]).replace("END\n", runs))
+    results = al.simulate(deck, **options(formula, 1e-9))
+    assert results.outcome is Outcome.DONE and results.summary["steps"] < 2000
+    at = np.linspace(0.0, 1.4, 400_001)
+    impulse = float(((twice(at)[1:] + twice(at)[:-1]) / 2).sum() * (at[1] - at[0]))
+    assert results["POINT_MASS/2.vx"][-1] == approx(impulse, abs=1e-6)

@@ -71,14 +71,14 @@ def around_changes(program: Program, start: float, end: float, floor: bool) -> F
     that touches zero without a slope, as a STEP at the end of another, changes there by chance.
     """
     low, high = _spans(start, end)
-    size = np.nanmax(np.abs(enclose(program, low, low)[0]), initial=0.0)
-    kept, level, whole = [], [], True
+    kept, level, whole, ends = [], [], True, low
     while low.size:
         least, most, slow, fast = found = enclose(program, low, high)
         zero = np.zeros(low.shape, dtype=bool)
         if low.size > MANY and not floor:
             least, most = _by_rate(program, low, high, found)
-            zero = (least >= -NOISE * size) & (most <= NOISE * size)
+            noise = NOISE * _magnitude(program, ends)
+            zero = (least >= -noise) & (most <= noise)
         still = (np.floor(least) == np.floor(most)) if floor else (least > 0.0) | (most < 0.0)
         still |= np.isnan(least + most)
         plain = (slow >= 0.0) | (fast <= 0.0) | (high - low <= ROUND_OFF * (end - start))
@@ -89,6 +89,14 @@ def around_changes(program: Program, start: float, end: float, floor: bool) -> F
         low, high = _divided(low, high, ~still & ~plain & ~zero)
     kept += _runs(np.concatenate(level, axis=1))
     return Found(np.unique(np.concatenate(kept)), np.zeros((0, 3)), whole)
+
+
+def _magnitude(program: Program, times: np.ndarray) -> float:
+    """The largest of what a guard is the difference of: its round-off is a share of that."""
+    name, *operands = program[-1]
+    parts = [program[: each + 1] for each in operands] if name in ("-", "Add") else [program]
+    sizes = [np.abs(enclose(part, times, times)[0]) for part in parts]
+    return max(float(each[np.isfinite(each)].max(initial=0.0)) for each in sizes)
 
 
 def _by_rate(

@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 # Changes nearer to each other, or to an output time, than this share of the run are one; they are
 # located to that of round-off.
 SAME, ROUND_OFF = 1e-13, 1e-16
+# A guard that jumps is not round-off beside a change: this share of its largest value is.
+LOUD = 1e-9
 # Where a guard is sampled between two changes.
 WITHIN = np.array([0.25, 0.5, 0.75])
 
@@ -110,13 +112,24 @@ def _lasting(system: System, found: np.ndarray, start: float, end: float) -> np.
     values = sample(system, (ends[:-1, None] + width[:, None] * WITHIN).ravel())
     values = values.reshape(len(width), len(WITHIN), -1)
     size = np.abs(values).max(axis=(0, 1))
-    zero = (np.abs(values) <= NOISE * size).all(axis=1)
+    # Beside a change a value is round-off, of what may be much larger than what is left of it.
+    noise = np.clip(_beside(system, found, end - start), NOISE * size, LOUD * size)
+    zero = (np.abs(values) <= noise).all(axis=1)
     branch = _branch(system, values[:, len(WITHIN) // 2])
     for guard in np.flatnonzero((zero[1:] & zero[:-1]).any(axis=0)):
         spans = np.flatnonzero(zero[:, guard])
         for run in np.split(spans, np.flatnonzero(np.diff(spans) > 1) + 1):
             branch[run, guard] = branch[run[width[run].argmax()], guard]
     return found[(branch[1:] != branch[:-1]).any(axis=1)]
+
+
+def _beside(system: System, found: np.ndarray, length: float) -> np.ndarray:
+    """Sixteen times the largest value of each guard beside its own changes, (guards,)."""
+    near = ROUND_OFF * max(length, float(np.abs(found).max()))
+    before, behind = sample(system, found - near), sample(system, found + near)
+    changes = _branch(system, before) != _branch(system, behind)
+    largest = np.maximum(np.abs(before), np.abs(behind))
+    return 16.0 * np.where(changes, largest, 0.0).max(axis=0)
 
 
 def _branches(system: System, times: np.ndarray) -> np.ndarray:
