@@ -118,7 +118,7 @@ def test_a_crane_takes_a_few_sections() -> None:
 def test_a_rope_that_becomes_slack_only_pulls() -> None:
     """It is told, and modelled: the deck of a weight that is thrown up by its own rope."""
     found = written(DOWN)
-    assert codes(found) == ["goes-slack"]
+    assert "goes-slack" in codes(found) and {*codes(found)} <= {"goes-slack", "unsettled"}
     assert "MAX(0," in found.deck.text and found.deck.model.level == 2
 
 

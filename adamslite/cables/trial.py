@@ -157,7 +157,7 @@ class _Choice:
         messages = [each for each in deck.messages if each.code not in self._refuted()]
         p = self.trial.of.spec.accuracy
         return Found(
-            replace(deck, messages=messages), off * p, self.doubt * p, chosen.cpu,
+            replace(deck, messages=messages), off * p, self.doubt * p, self.trial.timed(chosen),
             self.trial.spent, self.rungs[-1].option,
         )  # fmt: skip
 
