@@ -139,3 +139,15 @@ def test_an_angle_that_passes_half_a_turn_is_interpolated(how: str) -> None:
     at = np.array([0.13, 0.1416, 0.16, 0.9])
     reference = Results(time=at, names=("PART/2.psi",), values=3.0 + at[:, None])
     assert compare(run, reference, Tolerance(abs=1e-9), interpolate=how).inside
+
+
+@pytest.mark.parametrize("how", ["linear", "cubic"])
+def test_nothing_is_interpolated_where_a_run_went_back(how: str) -> None:
+    """RELOAD returns to an earlier time; two records at one time are those of two analyses."""
+    time = np.array([0.0, 1.0, 2.0, 1.0, 2.0, 3.0])
+    back = Results(time=time, names=("x",), values=time[:, None] ** 2)
+    once = Results(time=np.array([0.0, 1.5]), names=("x",), values=np.array([[0.0], [2.25]]))
+    with pytest.raises(Mismatch, match="go back from t = 2 to 1"):
+        compare(back, once, interpolate=how)
+    twice = Results(time=np.sort(time), names=("x",), values=np.sort(time)[:, None] ** 2)
+    assert compare(twice, once, Tolerance(abs=0.3), interpolate=how).inside

@@ -277,11 +277,23 @@ def sampler(
         raise Mismatch("the results hold no output time at all")
     slack = max(SAME_TIME * max(float(np.ptp(times)), abs(float(times[-1]))), rounded)
     _need_within(times, results.time, slack)
+    if interpolate:
+        _need_order(results.time)
     if interpolate == "linear":
         return lambda history: np.interp(times, results.time, history)
     if interpolate == "cubic":
         return lambda history: _cubic(results.time, history, times)
     return _at_output_times(results.time, times, slack)
+
+
+def _need_order(covered: np.ndarray) -> None:
+    """Nothing lies between output times where a run returned to an earlier state."""
+    back = np.flatnonzero(np.diff(covered) < 0.0)
+    if back.size:
+        raise Mismatch(
+            f"the results go back from t = {covered[back[0]]:g} to {covered[back[0] + 1]:g}: "
+            "nothing can be interpolated; choose the same output step"
+        )
 
 
 def _need_within(times: np.ndarray, covered: np.ndarray, slack: float) -> None:
@@ -313,7 +325,8 @@ def _at_output_times(
 def _cubic(covered: np.ndarray, history: np.ndarray, times: np.ndarray) -> np.ndarray:
     from scipy.interpolate import CubicSpline
 
-    return CubicSpline(covered, history)(times)
+    last = np.append(np.diff(covered) > 0.0, True)  # of records at one time
+    return CubicSpline(covered[last], history[last])(times)
 
 
 def _difference(
