@@ -352,3 +352,12 @@ def test_ctrl_c_writes_what_is_computed(tmp_path: Path) -> None:
     run = subprocess.run([*command, *flags.split()], capture_output=True, text=True)
     assert run.returncode == 4, run.stderr
     assert "# outcome: INTERRUPTED" in output.read_text() and "Traceback" not in run.stderr
+
+
+def test_an_interrupt_while_commands_are_loaded_is_told(monkeypatch, capsys) -> None:
+    def interrupted(words: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("adamslite.cli.main._with_commands", interrupted)
+    assert main(["solve", "deck.adm"]) == 4
+    assert capsys.readouterr().err == "adamslite: interrupted\n"

@@ -128,6 +128,8 @@ def _run(argv: Sequence[str], own: bool) -> int:
         args = _with_commands([word] if word in COMMANDS else [])[0].parse_args(argv)
     except SystemExit as leaving:
         return int(leaving.code or DONE)
+    except KeyboardInterrupt:
+        return _interrupted()
     if args.debug:
         return args.run(args)
     try:
@@ -140,10 +142,14 @@ def _run(argv: Sequence[str], own: bool) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return IO_FAILED
     except KeyboardInterrupt:
-        _tell("adamslite: interrupted")
-        return STOPPED_EARLY
+        return _interrupted()
     except Exception as fault:
         return _explain(fault)
+
+
+def _interrupted() -> int:
+    _tell("adamslite: interrupted")
+    return STOPPED_EARLY
 
 
 def _kept_modules(command: str) -> AbstractContextManager[None]:
