@@ -58,6 +58,7 @@ kept_scene
 scene
 command_files
 result_files
+sweeps
 verification
 plots
 manual

@@ -8,6 +8,7 @@
     adamslite verify [DIR|DECK ...]         run reference decks and compare
     adamslite linear DECK [COMMANDS.acf]    eigenvalues and modes of small motions
     adamslite names  DECK [PATTERN ...]     numbers of a deck by name, for --set
+    adamslite sweep  DECK NAME=VALUES ...   run it many times with other numbers
     adamslite chart  DECK [COMMANDS.acf]    what accuracy costs with each integrator
     adamslite cable  SPEC.toml              write the deck of a cable scene from a short description
     adamslite cache  [--clear]              what is kept between runs
@@ -51,6 +52,7 @@ COMMANDS = {
     "cable": "write the deck of a cable scene from a short description",
     "cache": "what is kept between runs",
     "names": "numbers of a deck by name, with their values and places",
+    "sweep": "run a deck many times with other numbers",
     "fmt": "put decks and command files into the canonical layout",
     "lsp": (
         "serve editors: messages while typing, pages, completion, renaming (Language Server "

@@ -24,6 +24,7 @@ RETURNED = (
     "results.comparison.Comparison",
     "results.linearization.Linearization",
     "verification.verification.Verdict",
+    "sweeps.record.Sweep",
     "verification.work_precision.Chart",
     "api.tools.Kept",
 )

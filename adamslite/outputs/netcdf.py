@@ -125,7 +125,7 @@ def _write_single(file: Any, results: Results, columns: list[int]) -> None:
     used = set(file.variables) | set(file.dimensions)
     for column in columns:
         name = results.names[column]
-        variable = file.createVariable(_identifier(name, used), "d", ("time",))
+        variable = file.createVariable(identifier(name, used), "d", ("time",))
         variable[:] = results.values[:, column]
         channel = results.channel(name)
         variable.channel = name.encode(TEXT)
@@ -137,7 +137,7 @@ def _write_single(file: Any, results: Results, columns: list[int]) -> None:
         )
 
 
-def _identifier(name: str, used: set[str]) -> str:
+def identifier(name: str, used: set[str]) -> str:
     """``REQUEST/1.F2`` as ``REQUEST_1_F2``, numbered where that is taken."""
     plain = re.sub(r"\W", "_", name, flags=re.ASCII)
     plain = plain if plain[:1].isalpha() else f"_{plain}"
@@ -177,6 +177,8 @@ def read(path: str | Path) -> Results:
 
 def _results(file: Any) -> Results:
     found = {name: _text(value) for name, value in file._attributes.items()}
+    if "sweep" in found:
+        raise FormatError("it holds a sweep of runs, not one: adamslite.load_sweep reads it")
     if "time" not in file.variables:
         raise FormatError("there is no variable 'time' in it")
     time = np.array(file.variables["time"][:], dtype=float)

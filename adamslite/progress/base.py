@@ -46,6 +46,16 @@ class RunState:
         span = self.end - self.start
         return min(max((self.time - self.start) / span, 0.0), 1.0) if span > 0.0 else 1.0
 
+    @property
+    def reached(self) -> str:
+        """How far it is, in words."""
+        return f"t = {self.time:.4g} of {self.end:g}"
+
+    @property
+    def counted(self) -> str:
+        """What ``steps`` counts."""
+        return "steps"
+
 
 class Progress:
     """Reports nothing; the base of those that do."""

@@ -38,10 +38,10 @@ class Look:
     def text(self) -> str:
         """``42 %  t = 0.84 of 2  h = 1.2e-04  order 5  31 000 steps/s  0:12 left``"""
         state = self.state
-        parts = [f"{int(100 * state.share):3d} %", f"t = {state.time:.4g} of {state.end:g}"]
+        parts = [f"{int(100 * state.share):3d} %", state.reached]
         parts += [f"h = {state.step:.1e}"] if state.step else []
         parts += [f"order {state.order}"] if state.order else []
-        parts += [f"{_rounded(self.speed)} steps/s"] if self.speed else []
+        parts += [f"{_rounded(self.speed)} {state.counted}/s"] if self.speed else []
         parts += [f"{_duration(self.left)} left"] if self.left is not None else []
         parts += [f"short steps: {self.limit}"] if self.limit else []
         return "  ".join(parts)

@@ -1,0 +1,111 @@
+"""`sweep` as users of Python call it, and what reads its files."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable
+from contextlib import closing
+from pathlib import Path
+from typing import Any
+
+from adamslite.analyses.subject import Subject, deck_of
+from adamslite.api.inputs import CommandSource, User, inputs
+from adamslite.kept_scene import tables_of
+from adamslite.progress import Progress, progress_of
+from adamslite.sweeps import netcdf
+from adamslite.sweeps import sweep as sweeps
+from adamslite.sweeps.ranges import GRID, Varied
+from adamslite.sweeps.record import Sweep
+from adamslite.sweeps.workers import PROCESSES
+
+
+def sweep(
+    scene: Subject | str | os.PathLike[str],
+    varied: Varied,
+    sample: str = GRID,
+    seed: int = 0,
+    measures: Iterable[str] = (),
+    outputs: Iterable[str] = (),
+    path: str | Path | None = None,
+    workers: int | None = None,
+    by: str = PROCESSES,
+    end: float | None = None,
+    steps: int | None = None,
+    integrator: str | None = None,
+    formulation: str | None = None,
+    error: float | None = None,
+    hmax: float | None = None,
+    commands: CommandSource = None,
+    user: User = None,
+    progress: Progress | Callable[[float, float], Any] | bool | None = None,
+) -> Sweep:
+    """Run a deck many times with other numbers, on all processors.
+
+    On Windows and macOS, and in a process with threads, workers import the calling program: call it
+    below ``if __name__ == "__main__":`` there.
+
+    Parameters
+    ----------
+    scene : str, Path, Deck, Model or Kernels
+        As for :func:`adamslite.simulate`.
+    varied : mapping or iterable of str
+        ``{"SPRINGDAMPER/1.K": [80, 90], "PART/2.MASS": "1:4"}``, or
+        ``"SPRINGDAMPER/1.K=80:120:5"``; :func:`adamslite.names` lists the names.
+    sample : str
+        ``grid``: all combinations; ``sobol:N``, ``lhs:N``: N runs that fill the ranges.
+    seed : int
+        Of the two that draw.
+    measures : iterable of str
+        ``"max REQUEST/1.F2"``: words are max, min, absmax, range, mean, rms, first, final, maxtime,
+        mintime.
+    outputs : iterable of str
+        Patterns of the columns whose histories are kept.
+    path : str or Path
+        A NetCDF file of all runs; a sweep of the same that was interrupted is gone on with.
+    workers : int
+        As many as there are processors unless given.
+    by : str
+        ``processes`` or ``threads``.
+    end, steps, integrator, formulation, error, hmax, commands, user
+        As for :func:`adamslite.simulate`.
+    progress : bool, callable or Progress
+        A function is called with how many runs are done and how many there are.
+
+    Returns
+    -------
+    Sweep
+        ``sweep["SPRINGDAMPER/1.K"]``, ``sweep["max REQUEST/1.F2"]`` are arrays with a number for
+        each run; runs that failed have an outcome and a message.
+
+    Raises
+    ------
+    DeckError
+        With everything that is wrong in deck and commands.
+    UsageError
+        When a name, a range or a measure is not what it has to be, or the file holds anything else.
+    """
+    given = inputs(scene, commands, user)
+    deck = deck_of(given.subject)
+    flags = {
+        "end": end, "steps": steps, "integrator": integrator, "formulation": formulation,
+        "error": error, "hmax": hmax,
+    }  # fmt: skip
+    options = {name: each for name, each in flags.items() if each is not None}
+    read = [deck.path] if deck.path else []
+    read += [deck.folder / name for name in tables_of(deck, given.commands)]
+    with closing(progress_of(progress)) as shown:
+        return sweeps.sweep(
+            deck, sweeps.Wanted(varied, sample, seed, measures, outputs), path, given.commands,
+            options, sweeps.Means(workers, by), shown, read,
+        )  # fmt: skip
+
+
+def load_sweep(path: str | os.PathLike[str]) -> Sweep:
+    """The runs in a file of :func:`adamslite.sweep` or of the command ``sweep``.
+
+    Raises
+    ------
+    FormatError
+        When it holds none.
+    """
+    return netcdf.read(Path(path))

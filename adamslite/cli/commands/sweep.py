@@ -1,0 +1,117 @@
+"""run a deck many times with other numbers
+
+Each NAME=VALUES varies a number of the deck (`adamslite names` lists them): FROM:TO:COUNT values at
+equal distances, a list 1,2,4, or FROM:TO with a sample that draws. A grid runs all combinations.
+All runs go to one NetCDF file, DECK's name with .sweep.nc in the current directory or OUT; a run
+that fails is kept with its outcome. Interrupted, the file has what is done, and the same command
+goes on.
+"""
+
+import argparse
+import sys
+import time as clock
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from adamslite.cli.commands.codes import DONE, STOPPED_EARLY
+from adamslite.run_flags import add_user_flag, add_values_flag, count, instant, positive
+
+if TYPE_CHECKING:
+    from adamslite.sweeps.record import Sweep
+
+MOST_TOLD = 3
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments of `adamslite sweep`."""
+    parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
+    parser.add_argument(
+        "varied", metavar="NAME=VALUES", nargs="+",
+        help="SPRINGDAMPER/1.K=80:120:5, PART/2.MASS=1,2,4, L_0=1:2",
+    )  # fmt: skip
+    parser.add_argument(
+        "--sample", default="grid", metavar="SAMPLE", help="grid (default), sobol:N or lhs:N"
+    )
+    parser.add_argument("--seed", type=_seed, default=0, metavar="N", help="of sobol and lhs")
+    parser.add_argument(
+        "--measure", dest="measures", action="append", default=[], metavar="'WORD COLUMN'",
+        help="keep one number of a column: 'max REQUEST/1.F2'; words are max, min, absmax, range, "
+        "mean, rms, first, final, maxtime, mintime; may be repeated",
+    )  # fmt: skip
+    parser.add_argument(
+        "--outputs", metavar="PATTERN", nargs="+", default=[],
+        help="keep the histories of these columns: 'REQUEST/*', PART/2.y; after NAME=VALUES",
+    )  # fmt: skip
+    parser.add_argument("-o", "--output", metavar="OUT", help="file (.nc)")
+    parser.add_argument(
+        "--workers", type=count, metavar="N", help="as many as there are processors unless given"
+    )
+    parser.add_argument("--threads", action="store_true", help="workers are threads, not processes")
+    parser.add_argument(
+        "--commands", metavar="COMMANDS.acf", type=Path,
+        help="command file; without it the .acf beside the deck",
+    )  # fmt: skip
+    add_user_flag(parser)
+    add_values_flag(parser)
+    flags = parser.add_argument_group("run", "these win over the deck and the command file")
+    flags.add_argument("--end", type=positive, metavar="T", help="end time")
+    flags.add_argument("--steps", type=count, metavar="N", help="number of output steps")
+    flags.add_argument("--integrator", type=str.upper, metavar="NAME", help="GSTIFF, ...")
+    flags.add_argument("--error", type=positive, metavar="TOL", help="integration error per step")
+    flags.add_argument("--hmax", type=positive, metavar="H", help="largest step")
+    parser.add_argument("--quiet", action="store_true", help="print nothing unless runs fail")
+
+
+def _seed(text: str) -> int:
+    value = instant(text)
+    if value != int(value):
+        raise argparse.ArgumentTypeError(f"'{text}' must be a whole number")
+    return int(value)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Carry the runs out and write them; return the exit code."""
+    from adamslite.errors import UsageError
+    from adamslite.progress import Progress, TalkingProgress
+    from adamslite.scene import load_scene
+    from adamslite.sweeps.sweep import Means, Wanted, sweep
+
+    output = Path(args.output or f"{args.deck.stem}.sweep.nc")
+    if output.suffix.lower() != ".nc":
+        raise UsageError(f"-o {output}: the file of a sweep ends in .nc")
+    scene = load_scene(args.deck, args.commands, args.user, args.values)
+    wanted = Wanted(args.varied, args.sample, args.seed, args.measures, args.outputs)
+    flags = ("end", "steps", "integrator", "error", "hmax")
+    options = {name: getattr(args, name) for name in flags if getattr(args, name) is not None}
+    means = Means(args.workers, "threads" if args.threads else "processes")
+    progress = Progress() if args.quiet else TalkingProgress()
+    began = clock.perf_counter()
+    try:
+        found = sweep(
+            scene.deck, wanted, output, scene.commands, options, means, progress, scene.read
+        )
+    finally:
+        progress.close()
+    _tell(found, output, clock.perf_counter() - began, args)
+    return STOPPED_EARLY if found.ahead or found.failed else DONE
+
+
+def _tell(found: "Sweep", output: Path, taken: float, args: argparse.Namespace) -> None:
+    """How the runs ended."""
+    done = len(found) - len(found.ahead)
+    ends = ", ".join(f"{number} {ending}" for ending, number in found.endings.most_common())
+    if not args.quiet:
+        sys.stderr.write(
+            f"{args.deck}: {done} of {len(found)} runs, {ends or 'none'}\n"
+            f"  took                 {taken:.1f} s\n"
+            f"  results              {output}\n"
+        )
+    for number in found.failed[:MOST_TOLD]:
+        row = zip(found.names, found.values[number], strict=True)
+        numbers = ", ".join(f"{name}={value:.6g}" for name, value in row)
+        ending = f"{found.outcomes[number]}: {found.messages[number]}".rstrip(": ")
+        sys.stderr.write(f"adamslite: run {number} ({numbers}): {ending}\n")
+    if len(found.failed) > MOST_TOLD:
+        sys.stderr.write(f"adamslite: and {len(found.failed) - MOST_TOLD} more runs failed\n")
+    if found.ahead:
+        sys.stderr.write("adamslite: interrupted; the same command goes on with the rest\n")
