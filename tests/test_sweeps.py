@@ -5,6 +5,7 @@ The deck falls freely from rest: after T seconds y is y0 - g T^2/2, whatever the
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Any
 
@@ -164,6 +165,23 @@ def test_workers_find_the_same(by: str, monkeypatch: pytest.MonkeyPatch) -> None
     assert two.outcomes == ["DONE"] * 60
     for name in (NAME, LOWEST, "steps", "POINT_MASS/2.y"):
         assert (one[name] == two[name]).all()
+
+
+def ends_at_once(numbers: list[int]) -> Any:
+    os._exit(9)
+
+
+def test_a_worker_that_dies_is_told_and_what_is_done_is_kept(path, monkeypatch, capsys) -> None:
+    monkeypatch.setattr("adamslite.sweeps.workers.LOT", 1e-3)
+    monkeypatch.setattr("adamslite.sweeps.workers.SHORT", 0.0)
+    words = ["sweep", str(path), f"{NAME}=-1:-9:90", "--measure", LOWEST, "-o", "x.nc"]
+    with monkeypatch.context() as patch:
+        patch.setattr("adamslite.sweeps.workers._lot", ends_at_once)
+        assert main([*words, "--workers", "2"]) == 4
+    assert "has ended by itself" in capsys.readouterr().err
+    assert 1 <= len(al.load_sweep("x.nc").ahead) < 90
+    assert main([*words, "--workers", "1", "--quiet"]) == 0
+    assert al.load_sweep("x.nc").outcomes == ["DONE"] * 90
 
 
 def test_a_run_that_makes_no_model_fails_by_name_and_the_others_go_on(path, capsys) -> None:
