@@ -65,7 +65,8 @@ def at_rest(
     short = replace(
         settings, tlimit=min(settings.tlimit, tlimit), alimit=min(settings.alimit, alimit)
     )
-    for limits in (settings, short):
+    # ALIMIT and TLIMIT are those of bodies; increments of states have none.
+    for limits in (settings, short)[: 1 + bool(len(system.mass))]:
         outcome = run_static(system, limits)
         if outcome is Outcome.DONE:
             return outcome, system.report.ways_to_fall
