@@ -35,6 +35,8 @@ SETTLED, ROOM = 0.2, 0.92
 DEAR = 0.05
 # ERROR from rung to rung, in the order 1, 2, 5, 10 ...
 TIGHTER = 2
+# Of the length: ERROR of a rung at least.
+FINEST = 1e-11
 # Work of a rung over that of the one before, at least.
 GROWTH = 3.0
 # Of the allowance: what the first rung may be expected to take.
@@ -199,7 +201,8 @@ class Runs:
             return None
         error = option.error
         if not self.of.spec.error:
-            error = max(advice.notched(error, -TIGHTER), advice.TIGHTEST * self.of.demand.longest)
+            least = FINEST * self.of.demand.longest
+            error = max(advice.notched(error, -TIGHTER), min(least, error))
         return replace(option, elements=2 * option.elements, error=error)
 
     def off(self, one: Tried, truth: Tried, doubts: Doubts | None = None) -> tuple[float, str]:
