@@ -31,7 +31,8 @@ from adamslite.language.diagnostics import DeckError
 RUNGS = 3
 # Of the accuracy: what the last rung may be off, and what the model that is taken may be, with it.
 SETTLED, ROOM = 0.2, 0.92
-# Of the allowance: what a rung costs that is not needed where one is good enough.
+# Of the allowance: what a rung costs that is not needed where one is good enough; as long as they
+# are cheaper the ladder goes on, for a few sections may agree about a front that none of them has.
 DEAR = 0.05
 # ERROR from rung to rung, in the order 1, 2, 5, 10 ...
 TIGHTER = 2
@@ -237,10 +238,10 @@ class Runs:
             return True
         if len(rungs) < RUNGS:
             return False
-        if self.doubt(rungs) <= SETTLED:
-            return True
+        if next_one <= DEAR * self.allowance:
+            return False
         good = self.good(rungs, ROOM, self.doubts(rungs))
-        return next_one > DEAR * self.allowance and good not in (None, rungs[-1])
+        return self.doubt(rungs) <= SETTLED or good not in (None, rungs[-1])
 
     def slackens(self, rungs: list[Tried]) -> bool:
         """Whether two models agree that a cable which also pushes would be pushed."""
