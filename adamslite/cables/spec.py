@@ -31,7 +31,7 @@ from adamslite.language.diagnostics import DeckError, Source, sort_by_place
 
 # The value of a fall that is not written: the order of the file.
 NO_FALL = ""
-NUMBER = f"a number that is 0 or between {SMALLEST:g} and {LARGEST:g} in size"
+NUMBER = f"0 or a number whose size is from {SMALLEST:g} to {LARGEST:g}"
 
 
 @dataclass(frozen=True)
