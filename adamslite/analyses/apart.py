@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.elements.bases.contact_point import ContactPoint
 from adamslite.integrators.event_rows import CLOSEST
 
 if TYPE_CHECKING:
@@ -72,7 +71,11 @@ def _distances(system: System) -> Iterator[tuple[str, float]]:
 
 def _length(statement: Statement, gap: float, in_length: bool) -> float:
     """A distance from a gap; ``r**2 - distance**2`` where balls are near to something."""
-    if in_length or gap <= 0.0 or not isinstance(statement, ContactPoint):
+    if in_length or gap <= 0.0:
+        return gap
+    from adamslite.elements.bases.contact_point import ContactPoint
+
+    if not isinstance(statement, ContactPoint):
         return gap
     forms = (statement.first, statement.second)
     near = sum(float(form.sizes[0]) for form in forms if form.kind == "BALL")

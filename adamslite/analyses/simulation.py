@@ -18,7 +18,6 @@ from adamslite.analyses.output_times import spread_times
 from adamslite.analyses.run_options import checked
 from adamslite.analyses.session import Session
 from adamslite.analyses.slack import compressed
-from adamslite.analyses.standstill import standing
 from adamslite.analyses.subject import deck_of, prepared_for
 from adamslite.deck.element_switch import Switch
 from adamslite.deck.redefinition import Redefinition
@@ -338,8 +337,12 @@ def _beyond(session: Session) -> dict[str, str]:
 
 def _standing(session: Session) -> dict[str, str]:
     """Joints that stood still while others moved."""
-    if not session.counts.steps or not session.history.pieces:
+    joints = [each for each in session.deck.statements if each.keyword == "JOINT"]
+    if len(joints) < 2 or not session.counts.steps or not session.history.pieces:
         return {}
+    # Most runs of few parts do without.
+    from adamslite.analyses.standstill import standing
+
     _, names, values = session.history.whole
     note = standing(session.kernels.model, names, values)
     return {"not moved": note} if note else {}
