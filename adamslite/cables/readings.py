@@ -20,7 +20,7 @@ from adamslite.cables.vocabulary import Spec
 # Of the time of a wave along the longest span: what a tension is the mean of.
 SEEN = 0.5
 # Of the length of the cable: weights that move by less do not.
-STILL = 1e-6
+STILL = 2e-8
 # How much smaller a difference may be than the one before it: powers 2 and 2/3 of the sections; and
 # safety on what that leaves.
 FASTEST, SLOWEST, SAFETY = 0.25, 0.63, 1.25
