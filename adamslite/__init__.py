@@ -41,6 +41,7 @@ _HOME = {
     "fmt": "api.tools",
     "help": "api.tools",
     "html": "notebooks.html",
+    "indices": "api.sweeps",
     "linearize": "api.runs",
     "load_sweep": "api.sweeps",
     "names": "api.numbers",

@@ -94,7 +94,7 @@ def test_what_is_no_range_is_told_in_a_sentence(text: str, told: str) -> None:
     ("sample", "told"),
     [
         ("sobl:8", "did you mean sobol"),
-        ("grid:3", "grid, sobol:N or lhs:N"),
+        ("grid:3", "grid, sobol:N, lhs:N or saltelli:N"),
         ("lhs", "say how many runs, as lhs:256"),
         ("lhs:-1", "say how many"),
         ("sobol:100", "sobol:64 or sobol:128"),

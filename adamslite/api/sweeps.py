@@ -16,6 +16,8 @@ from adamslite.sweeps import netcdf
 from adamslite.sweeps import sweep as sweeps
 from adamslite.sweeps.ranges import GRID, Varied
 from adamslite.sweeps.record import Sweep
+from adamslite.sweeps.saltelli import SobolIndices
+from adamslite.sweeps.saltelli import indices as estimated
 from adamslite.sweeps.workers import PROCESSES
 
 
@@ -52,9 +54,10 @@ def sweep(
         ``{"SPRINGDAMPER/1.K": [80, 90], "PART/2.MASS": "1:4"}``, or
         ``"SPRINGDAMPER/1.K=80:120:5"``; :func:`adamslite.names` lists the names.
     sample : str
-        ``grid``: all combinations; ``sobol:N``, ``lhs:N``: N runs that fill the ranges.
+        ``grid``: all combinations; ``sobol:N``, ``lhs:N``: N runs that fill the ranges;
+        ``saltelli:N``: N (d + 2) runs for the Sobol indices of d numbers.
     seed : int
-        Of the two that draw.
+        Of those that draw.
     measures : iterable of str
         ``"max REQUEST/1.F2"``: words are max, min, absmax, range, mean, rms, first, final, maxtime,
         mintime.
@@ -109,3 +112,24 @@ def load_sweep(path: str | os.PathLike[str]) -> Sweep:
         When it holds none.
     """
     return netcdf.read(Path(path))
+
+
+def indices(
+    runs: Sweep | str | os.PathLike[str], measures: str | Iterable[str] = ()
+) -> SobolIndices:
+    """Sobol indices: how much of the variance of a measure each number is behind, by itself
+    (first) and with others (total), as `adamslite indices` prints them.
+
+    Parameters
+    ----------
+    runs : Sweep, str or Path
+        A sweep with ``sample="saltelli:N"``, or its file.
+    measures : str or iterable of str
+        Names or patterns; all of its measures unless given.
+
+    Raises
+    ------
+    UsageError
+        When the runs are of another sample, are not all there, or have failed.
+    """
+    return estimated(runs if isinstance(runs, Sweep) else load_sweep(runs), measures)

@@ -25,6 +25,7 @@ RETURNED = (
     "results.linearization.Linearization",
     "verification.verification.Verdict",
     "sweeps.record.Sweep",
+    "sweeps.saltelli.SobolIndices",
     "verification.work_precision.Chart",
     "api.tools.Kept",
 )

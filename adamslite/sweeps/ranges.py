@@ -5,7 +5,7 @@ written               takes
 ====================  =========================================================================
 ``80:120:5``          five values from 80 to 120, at equal distances, both ends among them
 ``1,2,4``             these values
-``80:120``            any value between, where values are drawn (sobol, lhs)
+``80:120``            any value between, where values are drawn (sobol, lhs, saltelli)
 ====================  =========================================================================
 
 Where values are drawn, of five values or a list one is drawn.
@@ -25,8 +25,8 @@ from adamslite.language.likeness import did_you_mean
 Varied = Mapping[str, str | float | Iterable[float]] | Iterable[str]
 #: More runs than this are a slip of the pen.
 MOST = 1_000_000
-GRID, SOBOL, LHS = "grid", "sobol", "lhs"
-DRAWN = (SOBOL, LHS)
+GRID, SOBOL, LHS, SALTELLI = "grid", "sobol", "lhs", "saltelli"
+DRAWN = (SOBOL, LHS, SALTELLI)
 
 
 @dataclass(frozen=True)
@@ -115,9 +115,10 @@ def sampled(ranges: Sequence[Range], sample: str = GRID, seed: int = 0) -> np.nd
     ----------
     sample : str
         ``grid``: all combinations, the last number changing fastest; ``sobol:N``, N a power of
-        two, and ``lhs:N`` (Latin hypercube): N runs that fill the ranges evenly.
+        two, and ``lhs:N`` (Latin hypercube): N runs that fill the ranges evenly;
+        ``saltelli:N``, N a power of two: N (d + 2) runs for the Sobol indices of d numbers.
     seed : int
-        Of the two that draw.
+        Of those that draw.
 
     Raises
     ------
@@ -127,12 +128,38 @@ def sampled(ranges: Sequence[Range], sample: str = GRID, seed: int = 0) -> np.nd
     kind, count = _kind(sample)
     if kind == GRID:
         return _grid(ranges)
+    shares = _shares(kind, count, len(ranges), np.random.default_rng(seed))
+    return np.column_stack([each.at(shares[:, k]) for k, each in enumerate(ranges)])
+
+
+def _shares(kind: str, count: int, numbers: int, generator: np.random.Generator) -> np.ndarray:
+    """Shares of the ranges, 0 to 1 (run, number)."""
     from scipy.stats import qmc
 
-    generator = np.random.default_rng(seed)
-    sampler = {SOBOL: qmc.Sobol, LHS: qmc.LatinHypercube}[kind](len(ranges), seed=generator)
-    shares = sampler.random(count)
-    return np.column_stack([each.at(shares[:, k]) for k, each in enumerate(ranges)])
+    if kind == SALTELLI:
+        if numbers < 2:
+            raise UsageError(
+                "Sobol indices are of two numbers or more: all comes from a single one"
+            )
+        if count * (numbers + 2) > MOST:
+            raise UsageError(
+                f"{SALTELLI}:{count} has {count * (numbers + 2)} runs; {MOST} are the most"
+            )
+        return stacked(qmc.Sobol(2 * numbers, bits=64, seed=generator).random(count))
+    sampler = {SOBOL: qmc.Sobol, LHS: qmc.LatinHypercube}[kind](numbers, seed=generator)
+    found: np.ndarray = sampler.random(count)
+    return found
+
+
+def stacked(points: np.ndarray) -> np.ndarray:
+    """The runs of a Saltelli design, of points (N, 2 d): A (N, d), B, and A with one number after
+    the other from B, (N (d + 2), d) in all.
+    """
+    a, b = np.hsplit(points, 2)
+    mixed = np.tile(a, (a.shape[1], 1, 1))
+    for k in range(a.shape[1]):
+        mixed[k, :, k] = b[:, k]
+    return np.concatenate([a, b, *mixed])
 
 
 def _kind(sample: str) -> tuple[str, int]:
@@ -141,12 +168,12 @@ def _kind(sample: str) -> tuple[str, int]:
         return kind, 0
     if kind not in DRAWN:
         hint = did_you_mean(kind, [GRID, *DRAWN]).lower()
-        known = f"{sample}: a sample is grid, sobol:N or lhs:N"
+        known = f"{sample}: a sample is grid, sobol:N, lhs:N or saltelli:N"
         raise UsageError(f"{known}; {hint}" if hint else known)
     if not word.isdecimal() or not 1 <= int(word) <= MOST:
         raise UsageError(f"{sample}: say how many runs, as {kind}:256 (at most {MOST})")
     count = int(word)
-    if kind == SOBOL and count & (count - 1):
+    if kind != LHS and count & (count - 1):
         near = 1 << count.bit_length()
         raise UsageError(
             f"{sample}: Sobol points fill a space in powers of two: {kind}:{near // 2} or "

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -140,6 +141,10 @@ class Sweep:
     def save(self, path: str | Path) -> None:
         """Write a NetCDF file of all runs, whole or not at all; it opens in xarray."""
         import_module("adamslite.sweeps.netcdf").write(self, path)
+
+    def indices(self, measures: str | Iterable[str] = ()) -> Any:
+        """:func:`adamslite.indices` of these runs."""
+        return import_module("adamslite.sweeps.saltelli").indices(self, measures)
 
     def __repr__(self) -> str:
         done = len(self) - len(self.ahead)

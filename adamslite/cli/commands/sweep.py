@@ -30,9 +30,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="SPRINGDAMPER/1.K=80:120:5, PART/2.MASS=1,2,4, L_0=1:2",
     )  # fmt: skip
     parser.add_argument(
-        "--sample", default="grid", metavar="SAMPLE", help="grid (default), sobol:N or lhs:N"
+        "--sample",
+        default="grid",
+        metavar="SAMPLE",
+        help="grid (default), sobol:N, lhs:N, or saltelli:N for Sobol indices",
     )
-    parser.add_argument("--seed", type=_seed, default=0, metavar="N", help="of sobol and lhs")
+    parser.add_argument("--seed", type=_seed, default=0, metavar="N", help="of samples that draw")
     parser.add_argument(
         "--measure", dest="measures", action="append", default=[], metavar="'WORD COLUMN'",
         help="keep one number of a column: 'max REQUEST/1.F2'; words are max, min, absmax, range, "
