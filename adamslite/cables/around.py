@@ -23,8 +23,7 @@ from dataclasses import dataclass
 from math import inf
 
 from adamslite.cables.statements import AXES, number
-from adamslite.cables.surroundings import height
-from adamslite.cables.vectors import Vector, add, unit
+from adamslite.cables.vectors import add, unit
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheels import triple
 
@@ -74,16 +73,6 @@ def _lies_deep(spec: Spec) -> float:
     assert spec.bed
     weight = spec.cable.density * sum(g * g for g in spec.gravity) ** 0.5
     return max(weight / spec.bed.stiffness, SUNK * spec.cable.diameter)
-
-
-def lightness(spec: Spec, place: Vector) -> float:
-    """Share of its weight that a cable at rest at `place` has in the water."""
-    water = spec.water
-    if not (water and water.buoyancy and any(spec.gravity)):
-        return 1.0
-    if height(spec.gravity, place) > water.level:
-        return 1.0
-    return 1 - water.displaced(spec.cable.diameter) / spec.cable.density
 
 
 def write_around(spec: Spec, row: Row, axes: str) -> str:

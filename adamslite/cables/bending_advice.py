@@ -14,7 +14,6 @@ the elastica.
 from dataclasses import replace
 from math import cosh, hypot, sqrt
 
-from adamslite.cables.around import lightness
 from adamslite.cables.geometry import FreeSpan, wrap
 from adamslite.cables.vectors import ZERO, norm
 from adamslite.cables.vocabulary import Spec
@@ -85,7 +84,7 @@ def sections(spec: Spec, spans: list[FreeSpan], tension: float) -> dict[str, flo
     length = spec.cable.length or max(span.length for span in spans)
     found = {}
     if spec.water or spec.bed or spec.cable.length:
-        weight = abs(lightness(spec, spec.route[-1].at)) * spec.cable.density * norm(spec.gravity)
+        weight = abs(spec.lightness(spec.route[-1].at)) * spec.cable.density * norm(spec.gravity)
         least = tension if spec.cable.length else hypot(tension, weight * length / 2)
         turns = weight * length / least if least else 0.0
         finer = TOUCH_DOWN if spec.bed else 1.0

@@ -24,7 +24,7 @@ from adamslite.cables.pieces import Piece, at_least_nothing, is_between
 from adamslite.cables.statements import number
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheel_spans import at_rest, half, is_heavy, tension_at
-from adamslite.cables.wheels import STICKS, arm, rolled, slipping, travel
+from adamslite.cables.wheels import STICKS, arm, rolled, travel
 from adamslite.cables.winches import drive
 
 # Sliding speed at which friction is full, or that at rest is no longer greater [m/s].
@@ -35,7 +35,7 @@ def turned(spec: Spec, spans: list[FreeSpan], model: CableModel, found: list[Pie
     """What the cable, or its friction, and the drive do to wheel i."""
     before, behind = (found[p] if p >= 0 else None for p in spec.beside(i))
     radius = arm(i, spec)
-    if slipping(i, spec) and before and behind:
+    if spec.slips_at(i) and before and behind:
         text = _friction(spec, spans, model, (before, behind), i)
         return text + drive(spec, i, [f"{radius}*F_{spec.marker(i)}"])
     pulls = f"+{tension_at(spec, behind, i)}" if behind else ""
@@ -54,9 +54,7 @@ def half_section(model: CableModel, piece: Piece, spec: Spec) -> str:
 
 def at_wheel(spec: Spec, model: CableModel, piece: Piece, i: int) -> str:
     """Tension of a span at wheel i, with the acceleration of what lies there."""
-    mass = (
-        "" if is_between(spec, piece) or not slipping(i, spec) else _beside(spec, model, piece, i)
-    )
+    mass = "" if is_between(spec, piece) or not spec.slips_at(i) else _beside(spec, model, piece, i)
     if not mass:
         return tension_at(spec, piece, i)
     return f"T{piece.number}{'-' if piece.sense > 0 else '+'}{mass}*A_{spec.marker(i)}"

@@ -10,7 +10,6 @@ beside a weight that slides.
 """
 
 from adamslite.cables import sliders
-from adamslite.cables.around import lightness
 from adamslite.cables.capstan import half_section
 from adamslite.cables.model_choice import CableModel
 from adamslite.cables.pieces import Piece, feed
@@ -36,7 +35,7 @@ def carried_half(spec: Spec, model: CableModel, piece: Piece, j: int, axes: str)
     half, flow = half_section(model, piece, spec), f"({feed(spec, piece, 1)})**2"
     if model.level < 3:
         flow += f"+{half}*({feed(spec, piece, 2)})"
-    light = lightness(spec, piece.place)
+    light = spec.lightness(piece.place)
     share = "" if light == 1.0 else f"{number(light)}*"
     components = [
         f"-rho*({half}*(ACC{a}({i})-{share}{gravity(a)})+({flow})*D{a}({j},{i})/DM({j},{i}))"

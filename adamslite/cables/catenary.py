@@ -11,7 +11,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from math import acosh, asinh, atanh, cosh, exp, log, sinh, sqrt
 
-from adamslite.cables.around import lightness
 from adamslite.cables.surroundings import height
 from adamslite.cables.vectors import ZERO, Vector, add, dot, norm, part_across, unit
 from adamslite.cables.vocabulary import Spec
@@ -39,7 +38,7 @@ def start(spec: Spec, n: int) -> Start:
         places = [add(a, between, k / n) for k in range(n + 1)]
         return Start(places, spec.cable.stiffness * strain)
     up = add(ZERO, unit(spec.gravity), -1)
-    weight = spec.cable.density * norm(spec.gravity) * lightness(spec, b)
+    weight = spec.cable.density * norm(spec.gravity) * spec.lightness(b)
     way = part_across(between, up)
     level, rise = norm(way), dot(between, up)
     x = max(level, NARROW * length)

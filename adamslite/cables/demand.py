@@ -28,8 +28,8 @@ from dataclasses import dataclass, field
 from math import ceil, inf, pi, sqrt
 
 from adamslite.cables.response import Errors, Machine, errors, worst
+from adamslite.cables.vocabulary import MOST_SECTIONS
 
-MOST = 900
 FEWEST = 4
 # Sections of an axial front, and of a kink by c/U, for the accuracy at which they were measured.
 AXIAL = 42
@@ -293,7 +293,7 @@ def rigid_fails(of: Demand, p: float) -> list[str]:
 
 def elements(of: Demand, p: float) -> int:
     """Sections of a span."""
-    return min(ceil(max(needed(of, p).values())), MOST)
+    return min(ceil(max(needed(of, p).values())), MOST_SECTIONS)
 
 
 def needed(of: Demand, p: float) -> dict[str, float]:

@@ -99,8 +99,8 @@ def _model(text: str) -> Model | None:
     # Decks without a description, which are most, are spared the modules of its model.
     import tomllib
 
-    from adamslite.cables.demand import MOST
     from adamslite.cables.keys import FORMS
+    from adamslite.cables.vocabulary import MOST_SECTIONS
 
     try:
         shown: dict[str, Any] = tomllib.loads(text)
@@ -112,7 +112,7 @@ def _model(text: str) -> Model | None:
         return None
     found = Model(**{name: shown[name] for name in Model._fields})
     # More sections than any deck is written with would take forever to write.
-    if not (1 <= found.level <= 3 and 1 <= found.elements <= MOST and found.form in FORMS):
+    if not (1 <= found.level <= 3 and 1 <= found.elements <= MOST_SECTIONS and found.form in FORMS):
         return None
     if not all(isinstance(each, str) for each in found.tried):
         return None

@@ -5,14 +5,15 @@ from adamslite.cables.geometry import FreeSpan, reaches
 from adamslite.cables.messages import Faults
 from adamslite.cables.model_choice import CableModel, needs_brute
 from adamslite.cables.sliders import is_straight, is_wire
-from adamslite.cables.surroundings_rules import check_nodes
+from adamslite.cables.vectors import add, cross, dot
 from adamslite.cables.vocabulary import Spec
-from adamslite.cables.wheels import in_plane, slipping
 
 # Pitches that differ by less than this share are one.
 SAME_PITCH = 1e-4
 # What a loop may lack of a whole number of links, as a share of one on half of a wheel.
 LINK_SHARE = 0.02
+# Of the sine of the angle between axes that are parallel.
+ROUND_OFF = 1e-9
 
 
 def check_form(spec: Spec, pieces: list[FreeSpan], model: CableModel, faults: Faults) -> None:
@@ -34,7 +35,7 @@ def check_form(spec: Spec, pieces: list[FreeSpan], model: CableModel, faults: Fa
             faults.add("slider-form", ("route", i, "slides"))
         if each.floor and not any(spec.gravity):
             faults.add("floor-where", ("route", i, "floor"))
-    check_nodes(spec, model, faults)
+    _check_nodes(spec, model, faults)
     if model.level == 1:
         _check_rigid(spec, faults)
 
@@ -50,7 +51,7 @@ def _check_rigid(spec: Spec, faults: Faults) -> None:
             faults.add("rigid-cannot", ("route", i, "kind"), what="a long run has waves")
         if each.slides and is_straight(spec, i) and not is_wire(spec, i):
             faults.add("rigid-cannot", ("route", i, "slides"), what="its straight length is fixed")
-        if slipping(i, spec):
+        if spec.slips_at(i):
             faults.add("rigid-cannot", ("route", i, "mu"), what="its cable cannot slip")
 
 
@@ -58,12 +59,48 @@ def _check_brute(spec: Spec, faults: Faults) -> None:
     """Whether sections can be laid round the wheels and bends, and run over the rims."""
     if not any(each.is_round for each in spec.route):
         faults.add("brute-no-wheel", ("model", "form"))
-    elif not in_plane(spec):
+    elif not _in_plane(spec):
         faults.add("brute-plane", ("model", "form"))
     for i, each in enumerate(spec.route):
         for word in ("reel", "wander", "held", "grip"):
             if getattr(each, word):
                 faults.add("brute-cannot", ("route", i, word), word=word)
+
+
+def _check_nodes(spec: Spec, model: CableModel, faults: Faults) -> None:
+    """Whether there are nodes for what acts on them."""
+    given = {"water": spec.water, "bed": spec.bed, "bending": spec.cable.bending}
+    word = next((word for word, value in given.items() if value), "")
+    if not word:
+        return
+    path = ("cable", "bending") if word == "bending" else (word,)
+    where = ""
+    if model.level == 1:
+        where = "a rigid cable has none"
+    elif model.form == "brute" or spec.bends:
+        where = "sections that run over rims or hang in bends are written without it"
+    elif model.elements == 1:
+        where = "one section has none between its ends"
+    for p, pair in enumerate(spec.pairs):
+        kinds = [spec.route[i] for i in pair]
+        if all(each.is_wheel for each in kinds) or any(each.kind == "run" for each in kinds):
+            where = where or f"the cable of span {p + 1} is one spring or a long run"
+    if where:
+        faults.add("no-nodes", path, word=word, where=where)
+
+
+def _in_plane(spec: Spec) -> bool:
+    """Whether all wheels and bends have one axis, and everything lies and moves across it."""
+    axes = [each.axis for each in spec.route if each.is_round]
+    if not axes:
+        return True
+    axis, origin = axes[0], spec.route[0].at
+    across = [dot(cross(axis, each), cross(axis, each)) for each in axes]
+    vectors = [spec.gravity, *(each.velocity for each in spec.route)]
+    vectors += [add(each.at, origin, -1) for each in spec.route]
+    return max(across) < ROUND_OFF**2 and all(
+        abs(dot(axis, v)) <= ROUND_OFF * dot(v, v) ** 0.5 for v in vectors
+    )
 
 
 def check_chain(spec: Spec, pieces: list[FreeSpan], faults: Faults) -> None:

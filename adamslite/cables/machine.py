@@ -12,9 +12,8 @@ from adamslite.cables.estimate import Laws, Ways
 from adamslite.cables.geometry import FreeSpan
 from adamslite.cables.network import Bar, Network, Terms
 from adamslite.cables.payout_law import Unknown, value
-from adamslite.cables.posture import AXES
 from adamslite.cables.response import Machine, String, instants
-from adamslite.cables.vectors import ZERO, Vector, add, dot, norm, part_across, unit
+from adamslite.cables.vectors import AXES, ZERO, Vector, add, dot, norm, part_across, unit
 from adamslite.cables.vocabulary import Spec
 from adamslite.language.expression import Node, Num, Op
 

@@ -17,11 +17,9 @@ from adamslite.cables.estimate import Laws, Moves, moving_mass
 from adamslite.cables.geometry import FreeSpan, reaches, wrap
 from adamslite.cables.machine import machine
 from adamslite.cables.messages import Faults
-from adamslite.cables.posture import AXES
 from adamslite.cables.response import Errors, Machine, is_usable
-from adamslite.cables.vectors import ZERO, add, dot, part_across, unit
-from adamslite.cables.vocabulary import Spec
-from adamslite.cables.wheels import slipping
+from adamslite.cables.vectors import AXES, ZERO, add, dot, part_across, unit
+from adamslite.cables.vocabulary import MOST_SECTIONS, Spec
 
 # Of the cosine of two directions that are one.
 ROUND_OFF = 1e-9
@@ -233,7 +231,7 @@ def demand_on_longest(spec: Spec, spans: list[FreeSpan], moves: Moves) -> Demand
     weight = max(abs(dot(spec.gravity, span.along)) for span in spans)
     tied = any(each.feeds or each.is_moved or each.kind == "body" for each in spec.route)
     tied = tied or spec.is_surrounded
-    rubs = any(slipping(i, spec) for i in range(len(spec.route)))
+    rubs = any(spec.slips_at(i) for i in range(len(spec.route)))
     return Demand(
         stiffness=cable.stiffness, density=cable.density, length=longest,
         tension=min(tensions(spec, spans)) + cable.density * longest * weight / 2,
@@ -264,7 +262,7 @@ def _level(spec: Spec, spans: list[FreeSpan], of: Demand, moves: Moves) -> tuple
     against += ["more than its tension acts on the cable"] * spec.is_surrounded
     against += ["a long run feeds the cable"] * any(each.kind == "run" for each in spec.route)
     against += ["the cable may slip on its wheels"] * any(
-        slipping(i, spec) for i in range(len(spec.route))
+        spec.slips_at(i) for i in range(len(spec.route))
     )
     if not against:
         return 1, ["level 1: no estimate speaks against a rigid cable without mass"]
@@ -311,7 +309,7 @@ def _elements(spec: Spec, spans: list[FreeSpan], of: Demand, form: str) -> tuple
     if bends:
         found["for one on a radius of a bend"] = of.length / min(bends)
     why = max(found, key=lambda name: found[name])
-    count = min(ceil(found[why]), demand.MOST)
+    count = min(ceil(found[why]), MOST_SECTIONS)
     return count, f"{count} section{'s' * (count > 1)} {why}"
 
 

@@ -10,7 +10,7 @@ from functools import partial
 from math import atan2
 
 from adamslite.cables.payout_law import Unknown, evaluate
-from adamslite.cables.vectors import ZERO, Vector, add, dot, norm
+from adamslite.cables.vectors import AXES, ZERO, Vector, add, dot, norm
 from adamslite.deck.deck import Deck
 from adamslite.elements.diff import Diff
 from adamslite.elements.gcon import Gcon
@@ -29,7 +29,6 @@ Axes = tuple[Vector, Vector, Vector]
 Law = Callable[[], float]
 
 GROUND: Body = ("PART", "ground")
-AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 STILL = frozenset("VM VX VY VZ VR WM WX WY WZ ACCM ACCX ACCY ACCZ WDTM WDTX WDTY WDTZ DIF1".split())
 PLACES = ("DM", "DX", "DY", "DZ")
 RATES = ("VR", "VX", "VY", "VZ")

@@ -10,7 +10,7 @@ from adamslite.cables.statements import number
 from adamslite.cables.supports import hanging_half, support_request
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheel_spans import is_heavy, tension_at
-from adamslite.cables.wheels import is_angle, mount_request, slipping, travel, turning
+from adamslite.cables.wheels import is_angle, mount_request, travel, turning
 
 # A tension below this strain is none, and no ratio is taken with it.
 SLACK = 1e-12
@@ -79,7 +79,7 @@ def _over(spec: Spec, spans: list[FreeSpan], model: CableModel, found: list[Piec
         before, behind = (_touch(found[p], i) for p in spec.beside(i))
         parts.append(f"F7={wrapped(spec, i, before, behind, wrap(spec, spans, i))}")
         title += ", wrap angle"
-    if slipping(i, spec) and not spec.closed:
+    if spec.slips_at(i) and not spec.closed:
         t1, t2 = (at_wheel(spec, model, found[p], i) for p in spec.beside(i))
         parts.append(f"F8=({t2})/MAX({t1},{number(SLACK * spec.cable.stiffness)})")
         title += ", ratio of its tensions"

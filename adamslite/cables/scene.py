@@ -8,7 +8,7 @@ from adamslite.cables.brute_force_layout import Overstretched, stretches
 from adamslite.cables.catenary import start
 from adamslite.cables.components import Load
 from adamslite.cables.deck_writer import Modelled, write
-from adamslite.cables.demand import MOST, Demand
+from adamslite.cables.demand import Demand
 from adamslite.cables.description import Model, comments
 from adamslite.cables.estimate import Laws, Moves, estimate_moves, laws
 from adamslite.cables.form_rules import check_chain, check_form, check_shape
@@ -28,7 +28,7 @@ from adamslite.cables.spec import Description, read, read_scene
 from adamslite.cables.surroundings_rules import check_surroundings
 from adamslite.cables.toml_places import Path
 from adamslite.cables.vectors import dot
-from adamslite.cables.vocabulary import Spec
+from adamslite.cables.vocabulary import MOST_SECTIONS, Spec
 from adamslite.language.diagnostics import DeckError, Diagnostic, sort_by_place
 
 # Shares by which payout may outrun a load before it is reported.
@@ -300,8 +300,9 @@ def _check(
     if model.form == "brute":
         total = sum(piece.length for piece in pieces) + sum(held.values())
         count = round(count * total / longest / len(stretches(spec)))
-    if count > MOST:
-        faults.add("too-many", ("model", "elements"), word="elements", count=count, most=MOST)
+    if count > MOST_SECTIONS:
+        faults.add("too-many", ("model", "elements"), word="elements", count=count,
+                   most=MOST_SECTIONS)  # fmt: skip
     for i, paid in moves.paid.items():
         if not spec.is_end(i):
             continue

@@ -7,7 +7,7 @@ one. A span between two wheels is one spring; a run that continues pulls with T0
 from dataclasses import replace
 
 from adamslite.cables import sliders
-from adamslite.cables.around import Row, lightness, write_around, write_clamp
+from adamslite.cables.around import Row, write_around, write_clamp
 from adamslite.cables.capstan import half_section, turned
 from adamslite.cables.carriages import along_axle, carried_half
 from adamslite.cables.catenary import start
@@ -41,7 +41,7 @@ from adamslite.cables.statements import (
 from adamslite.cables.vectors import ZERO, Vector, add, dot
 from adamslite.cables.vocabulary import Spec
 from adamslite.cables.wheel_spans import apart, touches, write_link
-from adamslite.cables.wheels import slipping, triple
+from adamslite.cables.wheels import triple
 
 
 def write_pieces(spec: Spec, spans: list[FreeSpan], model: CableModel) -> str:
@@ -140,7 +140,7 @@ def _hanging(spec: Spec, model: CableModel, piece: Piece) -> tuple[float, list[V
         places = [add(piece.place, between, k / n) for k in range(1, n + 1)]
         return spec.frees[piece.number - 1 - spec.numbers.spans], places
     held = spec.route[piece.tip].kind == "fixed"
-    spec = replace(spec, gravity=add(ZERO, spec.gravity, lightness(spec, piece.place)))
+    spec = replace(spec, gravity=add(ZERO, spec.gravity, spec.lightness(piece.place)))
     return hanging(spec, model.elements, piece.span.length, (piece.place, piece.along),
                    piece.tension, held)  # fmt: skip
 
@@ -247,11 +247,11 @@ def _pull(spec: Spec, model: CableModel, piece: Piece, grows: bool) -> str:
         text = f"VARIABLE/P{p}, FUNCTION={pull}\n"
         text += borne(spec, piece.root, i, j, piece.sense, f"P{p}", f"T{p}-P{p}")
         text += f"VARIABLE/T{p}, FUNCTION=P{p}"
-    weight = dot(spec.gravity, piece.along) * lightness(spec, piece.place)
+    weight = dot(spec.gravity, piece.along) * spec.lightness(piece.place)
     if spec.route[piece.root].is_wheel:
         # A cable that slips has the half section among the mass on its wheel instead.
         feeds = f"-({feed(spec, piece, 2)})"
-        feeds = "" if slipping(piece.root, spec) or grows and model.form == "paper" else feeds
+        feeds = "" if spec.slips_at(piece.root) or grows and model.form == "paper" else feeds
         feeds += f"-{along_axle(spec, piece.root, i, j)}" if root.is_mobile else ""
         if weight or feeds:
             text += f"\n, +rho*{half_section(model, piece, spec)}*({number(weight)}{feeds})"

@@ -4,7 +4,7 @@ point in water, on a bed, or at which the cable bends."""
 from math import inf
 
 from adamslite.cables import sliders
-from adamslite.cables.around import bending_shares, lightness, wet_share
+from adamslite.cables.around import bending_shares, wet_share
 from adamslite.cables.model_choice import CableModel
 from adamslite.cables.pieces import Piece
 from adamslite.cables.span_statements import row_of, spring
@@ -34,7 +34,7 @@ def _displaced(spec: Spec, i: int, pair: tuple[int, int], half: str) -> str:
     water, station = spec.water, spec.route[i]
     if water and water.buoyancy and water.level < inf and (station.is_moved or station.is_free):
         return f"displaced*{wet_share(spec, pair[0], pair, half)}"
-    return "displaced" if lightness(spec, station.at) < 1 else ""
+    return "displaced" if spec.lightness(station.at) < 1 else ""
 
 
 def support_request(spec: Spec, model: CableModel, found: list[Piece], i: int) -> str:
@@ -67,7 +67,7 @@ def _load(spec: Spec, model: CableModel, piece: Piece, i: int) -> dict[str, str]
                   max(at, to, key=row.nodes.index), free)  # fmt: skip
     carried = _displaced(spec, i, (at, to), f"{free}/2")
     varies = carried not in ("", "displaced")
-    light = 1.0 if varies else lightness(spec, spec.route[i].at)
+    light = 1.0 if varies else spec.lightness(spec.route[i].at)
     weight = spec.cable.density * light * (not _on_bed(spec, i))
     loads = {}
     for x, g in zip(AXES, spec.gravity, strict=True):

@@ -4,7 +4,6 @@ from math import inf
 
 from adamslite.cables.keys import NestedTable, Rules
 from adamslite.cables.messages import Faults
-from adamslite.cables.model_choice import CableModel
 from adamslite.cables.payout_law import parse
 from adamslite.cables.surroundings import Bed, Drag, Water, height
 from adamslite.cables.vectors import ZERO, add, norm
@@ -103,25 +102,3 @@ def _check_length(spec: Spec, faults: Faults) -> None:
         faults.add("length-too-short", path, length=cable.length, spacing=spacing)
     if cable.length > spacing and not any(spec.gravity):
         faults.add("no-depth", path, word="length")
-
-
-def check_nodes(spec: Spec, model: CableModel, faults: Faults) -> None:
-    """Whether there are nodes for what acts on them."""
-    given = {"water": spec.water, "bed": spec.bed, "bending": spec.cable.bending}
-    word = next((word for word, value in given.items() if value), "")
-    if not word:
-        return
-    path = ("cable", "bending") if word == "bending" else (word,)
-    where = ""
-    if model.level == 1:
-        where = "a rigid cable has none"
-    elif model.form == "brute" or spec.bends:
-        where = "sections that run over rims or hang in bends are written without it"
-    elif model.elements == 1:
-        where = "one section has none between its ends"
-    for p, pair in enumerate(spec.pairs):
-        kinds = [spec.route[i] for i in pair]
-        if all(each.is_wheel for each in kinds) or any(each.kind == "run" for each in kinds):
-            where = where or f"the cable of span {p + 1} is one spring or a long run"
-    if where:
-        faults.add("no-nodes", path, word=word, where=where)

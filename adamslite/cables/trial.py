@@ -11,11 +11,11 @@ from dataclasses import dataclass, replace
 from math import inf
 
 from adamslite.cables import advice
-from adamslite.cables.demand import MOST
 from adamslite.cables.model_choice import CableModel, Reasons
 from adamslite.cables.readings import columns
 from adamslite.cables.scene import Setting, Written, written
 from adamslite.cables.trial_runs import ROOM, Option, Runs, Solver, Tried
+from adamslite.cables.vocabulary import MOST_SECTIONS
 
 # How much cheaper a model has to be that is less accurate.
 WORTH = 1.2
@@ -267,9 +267,9 @@ class _Choice:
     @staticmethod
     def _at_the_limit(finest: Tried | None) -> str:
         """What helps where no finer model may be; empty where more runs do."""
-        if finest is None or 2 * finest.option.elements <= MOST:
+        if finest is None or 2 * finest.option.elements <= MOST_SECTIONS:
             return ""
-        return f"a cable may have {MOST} sections: a larger accuracy, or fewer quantities"
+        return f"a cable may have {MOST_SECTIONS} sections: a larger accuracy, or fewer quantities"
 
     def _as_proposed(self, finest: Tried | None) -> Found:
         """The model of the linear model; its cost by that of the finest that was solved."""

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from math import inf
 
 from adamslite.cables import advice
-from adamslite.cables.demand import MOST, elastic_level
+from adamslite.cables.demand import elastic_level
 from adamslite.cables.model_choice import CableModel
 from adamslite.cables.readings import (
     Doubts,
@@ -25,6 +25,7 @@ from adamslite.cables.readings import (
     read_off,
 )
 from adamslite.cables.scene import Setting, written
+from adamslite.cables.vocabulary import MOST_SECTIONS
 from adamslite.language.diagnostics import DeckError
 
 # Rungs of a ladder that show how fast differences fall, where there is room for them.
@@ -187,7 +188,8 @@ class Runs:
         while True:
             error = spec.error or advice.error_bound(of, spec.accuracy, count)
             taken = stops * advice.expected(of, method, level, count, error)
-            if count == 1 or taken < FIRST * self.allowance and count <= MOST >> (RUNGS - 1):
+            cheap = taken < FIRST * self.allowance and count <= MOST_SECTIONS >> (RUNGS - 1)
+            if count == 1 or cheap:
                 return Option(level, form, count, error)
             count = (count + 1) // 2
 
@@ -198,7 +200,7 @@ class Runs:
         return replace(option, elements=count, error=error)
 
     def _finer(self, option: Option) -> Option | None:
-        if 2 * option.elements > MOST:
+        if 2 * option.elements > MOST_SECTIONS:
             return None
         error = option.error
         if not self.of.spec.error:

@@ -6,6 +6,7 @@ from math import sqrt
 ALONG = 0.9
 Vector = tuple[float, float, float]
 ZERO: Vector = (0.0, 0.0, 0.0)
+AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
 def add(a: Vector, b: Vector, factor: float = 1.0) -> Vector:

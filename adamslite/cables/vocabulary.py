@@ -14,9 +14,11 @@ from adamslite.cables.components import (
     Reel,
     Wander,
 )
-from adamslite.cables.surroundings import Bed, Water
+from adamslite.cables.surroundings import Bed, Water, height
 from adamslite.cables.vectors import ZERO, Vector
 
+# Sections of one cable at the most.
+MOST_SECTIONS = 900
 # What trying models may take, in seconds of a machine on which costs were measured.
 TRIAL = 10.0
 
@@ -235,6 +237,19 @@ class Spec:
     def is_surrounded(self) -> bool:
         """Whether anything but tension and gravity acts on the nodes of the cable."""
         return bool(self.water or self.bed or self.cable.bending)
+
+    def lightness(self, place: Vector) -> float:
+        """Share of its weight that a cable at rest at `place` has in the water."""
+        water = self.water
+        if not (water and water.buoyancy and any(self.gravity)):
+            return 1.0
+        if height(self.gravity, place) > water.level:
+            return 1.0
+        return 1 - water.displaced(self.cable.diameter) / self.cable.density
+
+    def slips_at(self, i: int) -> bool:
+        """Whether the cable has a travel of its own over station i."""
+        return self.route[i].slips and not self.is_end(i)
 
     def is_end(self, i: int) -> bool:
         """Whether the route begins or ends at station i."""

@@ -11,13 +11,11 @@ from math import pi
 
 from adamslite.cables.components import Mount
 from adamslite.cables.statements import AXES, number, rounded
-from adamslite.cables.vectors import Vector, add, cross, dot, unit
+from adamslite.cables.vectors import Vector, add, unit
 from adamslite.cables.vocabulary import Spec, Station
 
 # Sliding speed below which what grips does not slip [m/s].
 STICKS = 1e-8
-# Of the sine of the angle between axes that are parallel.
-ROUND_OFF = 1e-9
 
 
 def triple(a: Vector) -> str:
@@ -28,7 +26,7 @@ def triple(a: Vector) -> str:
 def travel(i: int, spec: Spec, order: int = 0) -> str:
     """Cable that runs over or through station i along the route [m], or its time derivative."""
     n = spec.marker(i)
-    if slipping(i, spec) or spec.route[i].slides:
+    if spec.slips_at(i) or spec.route[i].slides:
         return (f"DIF(paid_{n})", f"DIF(run_{n})", f"A_{n}")[order]
     return rolled(i, spec, order)
 
@@ -70,17 +68,12 @@ def turning(i: int, spec: Spec, order: int = 0) -> str:
     return (f"AZ({n},{n + 1})", f"WZ({n},{n + 1}{seen})", f"WDTZ({n},{n + 1}{seen})")[order]
 
 
-def slipping(i: int, spec: Spec) -> bool:
-    """Whether the cable has a travel of its own over station i."""
-    return spec.route[i].slips and not spec.is_end(i)
-
-
 def is_angle(i: int, spec: Spec) -> bool:
     """Whether wheel i is no part, but its angle: nothing but the friction of a cable that grips it
     and that of its bearing on the ground turns it, and rows of such wheels may be long."""
     each = spec.route[i]
     fast = not (each.is_mobile or each.leans or each.held)
-    return bool(each.grip) and each.kind == "pulley" and slipping(i, spec) and fast
+    return bool(each.grip) and each.kind == "pulley" and spec.slips_at(i) and fast
 
 
 def wheel(spec: Spec, i: int, speed: float = 0.0) -> str:
@@ -241,17 +234,3 @@ def moved(i: int, j: int, each: Station) -> str:
 def own_names(text: str, n: int) -> str:
     """An expression of S and SD with the names these have at station n."""
     return re.sub(r"\b(SD?)\b", rf"\1_{n}", text, flags=re.IGNORECASE)
-
-
-def in_plane(spec: Spec) -> bool:
-    """Whether all wheels and bends have one axis, and everything lies and moves across it."""
-    axes = [each.axis for each in spec.route if each.is_round]
-    if not axes:
-        return True
-    axis, origin = axes[0], spec.route[0].at
-    across = [dot(cross(axis, each), cross(axis, each)) for each in axes]
-    vectors = [spec.gravity, *(each.velocity for each in spec.route)]
-    vectors += [add(each.at, origin, -1) for each in spec.route]
-    return max(across) < ROUND_OFF**2 and all(
-        abs(dot(axis, v)) <= ROUND_OFF * dot(v, v) ** 0.5 for v in vectors
-    )
