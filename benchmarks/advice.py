@@ -157,9 +157,9 @@ def judged(table: Table, found: Verdict, budget: float) -> Iterator[Verdict]:
 def advised(table: Table, p: float) -> tuple[dict[str, Deck], list[Model], list[str]]:
     """The decks of both ways, the finest that was tried, and what is warned of."""
     from adamslite.api.trials import solver
-    from adamslite.cables.advice import advise
-    from adamslite.cables.scene import setting, written
-    from adamslite.cables.trial import tried
+    from adamslite.cables.deck.scene import setting, written
+    from adamslite.cables.model.advice import advise
+    from adamslite.cables.trials.trial import tried
     from adamslite.progress import Progress
 
     of = setting(described(table, Model(), p))

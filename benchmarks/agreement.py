@@ -18,11 +18,11 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 import adamslite
-from adamslite.cables.description import END, below
-from adamslite.cables.report import advice_on
-from adamslite.cables.scene import chosen as choice
-from adamslite.cables.scene import deck, drawn
-from adamslite.cables.statements import number as number_of
+from adamslite.cables.deck.scene import chosen as choice
+from adamslite.cables.deck.scene import deck, drawn
+from adamslite.cables.description.head_comments import END, below
+from adamslite.cables.recognition.report import advice_on
+from adamslite.cables.statements.forms import number as number_of
 from adamslite.language.diagnostics import DeckError
 from benchmarks.rope_scenes import Table, scene, toml
 

@@ -5,7 +5,7 @@ stand still to p/10: with d the difference of the last two and f what it is of t
 least 1/4 and at most 1/2, the last is d f/(1 - f) off. A figure is the greatest, least or mean
 tension at either end of a span, as a share of the greatest there, and the greatest, least or mean
 place of a weight, as a share of its way. Nothing here is that of
-:mod:`adamslite.cables.trial`, whose choices it judges.
+:mod:`adamslite.cables.trials.trial`, whose choices it judges.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ def described(table: Table, model: Model, p: float) -> str:
 
 def solve(table: Table, model: Model, p: float, method: str = "") -> Solved:
     """The scene by a model."""
-    from adamslite.cables.scene import deck
+    from adamslite.cables.deck.scene import deck
 
     text, _ = deck(described(table, model, p))
     if method:

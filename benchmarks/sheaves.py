@@ -24,7 +24,7 @@ from time import process_time
 import numpy as np
 
 import adamslite as al
-from adamslite.cables.scene import deck
+from adamslite.cables.deck.scene import deck
 
 LENGTH, MU, WRAPS = 50.0, 0.2, 10.0
 #: A time of the pull [s].

@@ -15,7 +15,7 @@ import waves
 from formulas import Cable, G, Winch
 from spans import Span
 
-from adamslite.cables.statements import cable_variables, head, number, point, section, tail
+from adamslite.cables.statements.forms import cable_variables, head, number, point, section, tail
 from adamslite.results.results import Results
 from adamslite.verification.signals import arrival, plateau
 

@@ -1,7 +1,7 @@
 """Cable scenes as a user describes them to `adamslite cable`, and the run of such a scene."""
 
 import adamslite
-from adamslite.cables.scene import deck
+from adamslite.cables.deck.scene import deck
 
 G = 9.81
 #: Two weights on a rigid cable over two pulleys.

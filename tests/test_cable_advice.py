@@ -11,14 +11,14 @@ from descriptions import HOIST
 from tiers import every, slow
 
 import adamslite
-from adamslite.cables.advice import Advice, advise
-from adamslite.cables.chain_finder import chains, damper
-from adamslite.cables.demand import Demand, elements, level, rigid_fails
-from adamslite.cables.description import below
-from adamslite.cables.keys import QUANTITIES
-from adamslite.cables.posture import Posture
-from adamslite.cables.report import about_cables, cables
-from adamslite.cables.scene import deck
+from adamslite.cables.deck.scene import deck
+from adamslite.cables.description.head_comments import below
+from adamslite.cables.description.keys import QUANTITIES
+from adamslite.cables.model.advice import Advice, advise
+from adamslite.cables.model.demand import Demand, elements, level, rigid_fails
+from adamslite.cables.recognition.chain_finder import chains, damper
+from adamslite.cables.recognition.posture import Posture
+from adamslite.cables.recognition.report import about_cables, cables
 from adamslite.cli.main import main
 
 DECKS = Path(__file__).parent.parent / "decks"

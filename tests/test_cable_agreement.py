@@ -8,9 +8,9 @@ from dataclasses import replace
 import pytest
 
 import adamslite
-from adamslite.cables.description import BEGIN, END, MODEL, carried
-from adamslite.cables.report import about_cables, advice_on, by_description
-from adamslite.cables.scene import chosen, deck, drawn, setting, written
+from adamslite.cables.deck.scene import chosen, deck, drawn, setting, written
+from adamslite.cables.description.head_comments import BEGIN, END, MODEL, carried
+from adamslite.cables.recognition.report import about_cables, advice_on, by_description
 from adamslite.editing.layout import formatted
 from benchmarks.rope_scenes import scene, toml
 
@@ -241,9 +241,9 @@ def test_commands_that_change_the_deck_leave_the_description_aside() -> None:
 def test_decks_without_a_description_are_spared_the_modules_that_read_one() -> None:
     """No TOML, and no writer of decks, to check the deck of somebody else."""
     code = (
-        "import sys, adamslite\nfrom adamslite.cables.report import about_cables\n"
+        "import sys, adamslite\nfrom adamslite.cables.recognition.report import about_cables\n"
         "about_cables(adamslite.read(sys.stdin.read()))\n"
-        "print([m for m in sys.modules if m in ('tomllib', 'adamslite.cables.deck_writer')])"
+        "print([m for m in sys.modules if m in ('tomllib', 'adamslite.cables.deck.deck_writer')])"
     )
     text = bare(deck(HOIST)[0])
     run = subprocess.run([sys.executable, "-c", code], input=text, capture_output=True, text=True)

@@ -6,7 +6,7 @@ from descriptions import ATWOOD, G, solve
 from formulas import Winch, sliding_ratio
 
 import adamslite
-from adamslite.cables.scene import deck
+from adamslite.cables.deck.scene import deck
 
 WINCH = Winch(1.0, 0.2, 5)
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import adamslite
-from adamslite.cables.scene import deck
+from adamslite.cables.deck.scene import deck
 
 G = 9.81
 #: A block of M = 82 kg (J/R^2 = 2 kg of it) hangs in a rope of 3 kg/m, 5 m of it on either side.

@@ -7,9 +7,9 @@ import pytest
 from descriptions import BELT, HOIST, PAYOUT
 from scipy.optimize import brentq
 
-from adamslite.cables.messages import Faults
-from adamslite.cables.payout_law import parse, value
-from adamslite.cables.scene import deck
+from adamslite.cables.deck.scene import deck
+from adamslite.cables.description.messages import Faults
+from adamslite.cables.description.payout_law import parse, value
 
 LIGHT = """
 end = 1

@@ -8,8 +8,8 @@ from tiers import fast
 from written import assert_same_text
 
 import adamslite
-from adamslite.cables.messages import MESSAGES
-from adamslite.cables.scene import deck
+from adamslite.cables.deck.scene import deck
+from adamslite.cables.description.messages import MESSAGES
 from adamslite.resources import find
 
 FOLDERS = ("described", "hoists", "sheaves", "water", "winches")

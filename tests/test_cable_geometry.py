@@ -5,10 +5,10 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from adamslite.cables.geometry import apart, reaches, spans, turned
-from adamslite.cables.messages import Faults
-from adamslite.cables.spec import read
-from adamslite.cables.vocabulary import Spec
+from adamslite.cables.description.messages import Faults
+from adamslite.cables.description.spec import read
+from adamslite.cables.description.vocabulary import Spec
+from adamslite.cables.layout.geometry import apart, reaches, spans, turned
 
 HEAD = "end = 1\n{more}\n[cable]\nEA = 1e6\nrho = 0.1\npretension = 10\n"
 WHEEL = '[[route]]\nkind = "{kind}"\nat = [{x}, {y}, 0]\nradius = {radius}\n{drive}\n'

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import adamslite
-from adamslite.cables.scene import deck
+from adamslite.cables.deck.scene import deck
 
 G = 9.81
 #: A station where a rope is held above, and the hook below it.

@@ -9,8 +9,8 @@ from descriptions import ATWOOD, BELT, HOIST, PAYOUT, WIRE, folded
 
 import adamslite
 from adamslite.api.trials import described
-from adamslite.cables.messages import MESSAGES
-from adamslite.cables.scene import deck
+from adamslite.cables.deck.scene import deck
+from adamslite.cables.description.messages import MESSAGES
 from adamslite.cli.main import main
 from adamslite.language.diagnostics import WARNING, Diagnostic
 from adamslite.progress import Progress

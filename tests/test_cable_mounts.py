@@ -5,7 +5,7 @@ import pytest
 from tiers import slow
 
 import adamslite
-from adamslite.cables.scene import deck
+from adamslite.cables.deck.scene import deck
 
 G = 9.81
 # Two weights over a wheel of 0.1/0.2^2 = 2.5 kg on a bracket of 20 kg.

@@ -5,8 +5,8 @@ from math import cos, pi, sin, sqrt
 import numpy as np
 import pytest
 
-from adamslite.cables.network import Bar, Network, respond
-from adamslite.cables.scene import setting
+from adamslite.cables.deck.scene import setting
+from adamslite.cables.model.network import Bar, Network, respond
 
 EA, RHO, L, M, V = 2e6, 0.5, 12.0, 60.0, 0.7
 HUNG = Bar((), ((0, 1.0),), L, (EA, EA), points=(False, True))

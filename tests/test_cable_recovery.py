@@ -6,12 +6,12 @@ from typing import Any
 import pytest
 
 import adamslite
-from adamslite.cables.chain_finder import all_rows, damper
-from adamslite.cables.chain_routes import routes
-from adamslite.cables.posture import Posture
-from adamslite.cables.recovery import Recovered, recovered
-from adamslite.cables.report import about_cables, advice_on
-from adamslite.cables.scene import chosen, deck, setting
+from adamslite.cables.deck.scene import chosen, deck, setting
+from adamslite.cables.recognition.chain_finder import all_rows, damper
+from adamslite.cables.recognition.chain_routes import routes
+from adamslite.cables.recognition.posture import Posture
+from adamslite.cables.recognition.recovery import Recovered, recovered
+from adamslite.cables.recognition.report import about_cables, advice_on
 from benchmarks.rope_scenes import KINDS, Draw, toml
 
 # With the level that an elastic cable has there, and the number of a scene with a heavy weight.

@@ -7,7 +7,7 @@ import pytest
 from descriptions import G, solve
 
 import adamslite
-from adamslite.cables.scene import deck
+from adamslite.cables.deck.scene import deck
 
 HOIST = """
 end = 4

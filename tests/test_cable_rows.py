@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from adamslite.cables.scene import deck
+from adamslite.cables.deck.scene import deck
 from adamslite.language.diagnostics import DeckError
 
 SCENE = """\

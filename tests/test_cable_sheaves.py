@@ -9,7 +9,7 @@ from descriptions import ATWOOD
 from scipy.integrate import solve_ivp
 
 import adamslite
-from adamslite.cables.scene import deck
+from adamslite.cables.deck.scene import deck
 
 G = 9.81
 

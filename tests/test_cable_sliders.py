@@ -5,7 +5,7 @@ import pytest
 from descriptions import WIRE
 
 import adamslite
-from adamslite.cables.scene import deck
+from adamslite.cables.deck.scene import deck
 
 G = 9.81
 

@@ -9,12 +9,12 @@ import pytest
 
 import adamslite as al
 from adamslite.api.trials import described, solver
-from adamslite.cables.advice import notched
-from adamslite.cables.description import below
-from adamslite.cables.readings import Series
-from adamslite.cables.scene import deck, setting
-from adamslite.cables.trial import Found, tried
-from adamslite.cables.trial_runs import TOO_LONG, Solution
+from adamslite.cables.deck.scene import deck, setting
+from adamslite.cables.description.head_comments import below
+from adamslite.cables.model.advice import notched
+from adamslite.cables.trials.readings import Series
+from adamslite.cables.trials.trial import Found, tried
+from adamslite.cables.trials.trial_runs import TOO_LONG, Solution
 from adamslite.cli.main import main
 from adamslite.errors import UsageError
 from adamslite.progress import Progress

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from adamslite.api.trials import described
-from adamslite.cables.trial import Found
+from adamslite.cables.trials.trial import Found
 from adamslite.progress import Progress
 from benchmarks.rope_runs import Model, apart, solve, solved
 from benchmarks.rope_runs import described as text_of

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from descriptions import HOIST, solve
 
-from adamslite.cables.scene import deck
+from adamslite.cables.deck.scene import deck
 
 G = 9.81
 #: A rope without tension, 10 m level, between two free ends.

@@ -5,8 +5,8 @@ import pytest
 from descriptions import HOIST, PAYOUT
 
 import adamslite
-from adamslite.cables.description import below
-from adamslite.cables.scene import deck
+from adamslite.cables.deck.scene import deck
+from adamslite.cables.description.head_comments import below
 
 G = 9.81
 #: Lowers 1000 kg from a drum of 0.5 m and J = 25 kg m^2.

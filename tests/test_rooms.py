@@ -35,6 +35,12 @@ checks
 reading
 variation
 cables
+cables.description
+cables.layout
+cables.model
+cables.statements
+cables.deck
+cables.trials cables.recognition
 integrators.linalg
 integrators
 integrators.audit

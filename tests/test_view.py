@@ -10,7 +10,7 @@ import pytest
 from page_scenes import decoded, named, scene_of
 
 import adamslite as al
-from adamslite.cables.scene import deck as cable_deck
+from adamslite.cables.deck.scene import deck as cable_deck
 from adamslite.cli.main import main
 from adamslite.page.page import page
 from adamslite.resources import find

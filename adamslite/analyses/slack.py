@@ -54,7 +54,7 @@ def _pushing(places: dict[str, int], values: np.ndarray) -> dict[str, float]:
 
 def _sections(deck: Deck) -> set[str]:
     """Labels of the forces that are sections of cables."""
-    from adamslite.cables.chain_finder import chains
-    from adamslite.cables.posture import Posture
+    from adamslite.cables.recognition.chain_finder import chains
+    from adamslite.cables.recognition.posture import Posture
 
     return {link.statement.label for chain in chains(deck, Posture(deck)) for link in chain.links}

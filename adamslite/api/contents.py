@@ -12,7 +12,7 @@ from adamslite.language.diagnostics import Diagnostic
 
 def contents(deck: Deck, commands: Sequence[Command]) -> list[str]:
     """Lines about a deck; of its cables also how they would be modelled."""
-    from adamslite.cables.report import about_cables
+    from adamslite.cables.recognition.report import about_cables
 
     kinds = Counter(statement.keyword for statement in deck.statements)
     listed = ", ".join(f"{number} {keyword}" for keyword, number in kinds.items())

@@ -7,11 +7,11 @@ from math import inf
 import numpy as np
 
 from adamslite.analyses import simulation
-from adamslite.cables.readings import Series
-from adamslite.cables.scene import setting, several
-from adamslite.cables.spec import read_scene
-from adamslite.cables.trial import Found, tried
-from adamslite.cables.trial_runs import TOO_LONG, Solution, Solver
+from adamslite.cables.deck.scene import setting, several
+from adamslite.cables.description.spec import read_scene
+from adamslite.cables.trials.readings import Series
+from adamslite.cables.trials.trial import Found, tried
+from adamslite.cables.trials.trial_runs import TOO_LONG, Solution, Solver
 from adamslite.errors import RunFailed
 from adamslite.language.diagnostics import DeckError
 from adamslite.progress import Progress, RunState

@@ -1,4 +1,4 @@
-"""Comments that make an OUTLINE a cable: see :mod:`adamslite.cables.graphics` for their words."""
+"""Comments that make an OUTLINE a cable: cables/statements/graphics.py has their words."""
 
 from __future__ import annotations
 

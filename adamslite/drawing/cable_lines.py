@@ -14,8 +14,16 @@ from typing import Any
 
 import numpy as np
 
-from adamslite.cables.chain_finder import ALIKE, FEWEST, Chain, Link, along_lines, chains, rows
-from adamslite.cables.posture import Posture
+from adamslite.cables.recognition.chain_finder import (
+    ALIKE,
+    FEWEST,
+    Chain,
+    Link,
+    along_lines,
+    chains,
+    rows,
+)
+from adamslite.cables.recognition.posture import Posture
 from adamslite.drawing.cable_comments import CableComment, cable_comment
 from adamslite.drawing.drawing import Drawing
 from adamslite.drawing.kept_lengths import kept_spans

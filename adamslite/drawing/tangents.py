@@ -5,7 +5,7 @@ Along the direction d of a span from wheel i to wheel j, with D = C_j - C_i, k =
 
     sin q = -k/|D|,      P = C + s R d x a
 
-as in :mod:`adamslite.cables.geometry`.
+as in :mod:`adamslite.cables.layout.geometry`.
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ from benchmarks.rope_cases import DECKS, LIGHT, LOWERED, MOORED, MOVED, SHAKEN, 
 
 def described(rho: float) -> str:
     """The deck of the lowered weight on rope of `rho` [kg/m]."""
-    from adamslite.cables.scene import deck
+    from adamslite.cables.deck.scene import deck
 
     text = (DECKS / "lowered-weight" / "lowered-weight.toml").read_text(encoding="utf-8")
     if rho == cases.RHO:

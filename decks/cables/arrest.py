@@ -20,7 +20,7 @@ from ropes import nodes, stored, tensions
 from scipy.integrate import solve_ivp
 from spans import table
 
-from adamslite.cables.statements import (
+from adamslite.cables.statements.forms import (
     RADIUS,
     Side,
     cable_variables,

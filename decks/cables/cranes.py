@@ -18,7 +18,7 @@ from scipy.integrate import solve_ivp
 from spans import FORMS, table
 from sway import Ramp, most_sway, no_sway
 
-from adamslite.cables.statements import (
+from adamslite.cables.statements.forms import (
     PULLEY,
     RADIUS,
     Side,

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-from adamslite.cables.scene import deck
+from adamslite.cables.deck.scene import deck
 
 
 def write(folder: Path, references: Mapping[str, Callable[[], str]]) -> None:

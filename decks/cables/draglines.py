@@ -14,7 +14,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import fsolve
 from spans import FORMS, table
 
-from adamslite.cables.statements import (
+from adamslite.cables.statements.forms import (
     Side,
     cable_variables,
     head,

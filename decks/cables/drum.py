@@ -12,7 +12,7 @@ from formulas import Cable, G, Winch
 from payouts import hanging_deck
 from spans import Span, table
 
-from adamslite.cables.statements import cable_variables, head, number, point, section, tail
+from adamslite.cables.statements.forms import cable_variables, head, number, point, section, tail
 
 DRUM = 9021
 DAMPING = 0.2

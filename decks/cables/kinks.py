@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from formulas import Cable, Impact
 
-from adamslite.cables.statements import (
+from adamslite.cables.statements.forms import (
     HEAVY,
     PULLEY,
     RADIUS,

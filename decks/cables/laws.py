@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from adamslite.cables.statements import number
+from adamslite.cables.statements.forms import number
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ import numpy as np
 from formulas import Cable
 from spans import FORMS, Span, table
 
-from adamslite.cables.statements import HEAVY, grown, number, point, pulley, tail
+from adamslite.cables.statements.forms import HEAVY, grown, number, point, pulley, tail
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from formulas import Cable, G, Winch
 from scipy.integrate import solve_ivp
 from spans import FORMS, Span, table
 
-from adamslite.cables.statements import (
+from adamslite.cables.statements.forms import (
     BEARING,
     PULLEY,
     RADIUS,

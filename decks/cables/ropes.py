@@ -10,7 +10,7 @@ from formulas import Cable, G
 from laws import Law
 from scipy.optimize import brentq
 
-from adamslite.cables.statements import RADIUS, Side, grown, grown_tip, number, point
+from adamslite.cables.statements.forms import RADIUS, Side, grown, grown_tip, number, point
 
 
 def wheel(side: Side, mount: int, place: tuple[float, float], inertia: float) -> str:

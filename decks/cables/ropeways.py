@@ -17,7 +17,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq, fsolve
 from spans import table
 
-from adamslite.cables.statements import (
+from adamslite.cables.statements.forms import (
     RADIUS,
     Side,
     cable_variables,

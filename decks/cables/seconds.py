@@ -10,7 +10,7 @@ from formulas import G
 from scipy.special import jv, yv
 from spans import table
 
-from adamslite.cables.statements import head, number, tail
+from adamslite.cables.statements.forms import head, number, tail
 
 M0, MU = 4.0, 7.0
 

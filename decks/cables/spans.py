@@ -6,7 +6,7 @@ from math import ceil, log10
 import numpy as np
 from formulas import Cable
 
-from adamslite.cables.statements import cable_variables, head, payout_variables, section
+from adamslite.cables.statements.forms import cable_variables, head, payout_variables, section
 
 FORMS = ("paper", "ale")
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 from formulas import Cable, Impact
 
-from adamslite.cables.statements import (
+from adamslite.cables.statements.forms import (
     HEAVY,
     cable_variables,
     head,

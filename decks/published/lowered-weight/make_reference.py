@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from adamslite.cables.scene import deck
+from adamslite.cables.deck.scene import deck
 
 HERE = Path(__file__).resolve().parent
 G, WEIGHT, RHO = 9.81, 1000.0, 5.536

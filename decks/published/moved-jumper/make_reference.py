@@ -6,7 +6,7 @@ which the motion grows; there is no closed form.
 
 from pathlib import Path
 
-from adamslite.cables.scene import deck
+from adamslite.cables.deck.scene import deck
 
 HERE = Path(__file__).resolve().parent
 SCENE = """\

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from adamslite.cables.scene import deck
+from adamslite.cables.deck.scene import deck
 
 HERE = Path(__file__).resolve().parent
 SLACK, RHO, MU = 1000.0, 1.0, 0.2
