@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 from scipy.special import ellipk
+from tangents import compare_tangents
 
 import adamslite as al
 from adamslite.equations import operations
@@ -262,6 +263,7 @@ def assert_derivatives(scene: System, phases: int, tolerance: float = 2e-7) -> N
         compare_derivatives(scene, phases, kind, f"d/d{letter}", tolerance)
     compare_derivatives(scene, phases, 3, "d/d(lam, V)", tolerance)
     compare_derivatives(scene, phases, 4, "d/ds'", tolerance)
+    compare_tangents(scene, phases)
 
 
 def compare_derivatives(

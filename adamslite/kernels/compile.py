@@ -85,6 +85,25 @@ def lanes(kernels: Kernels, group: ShapeGroup) -> tuple[int, int]:
     return kernels.addresses[symbol], kernels.addresses[mass] if mass else 0
 
 
+def tangents(kernels: Kernels, group: ShapeGroup) -> tuple[int, ...]:
+    """Addresses of the tangents of the residual and of guards of the clock and of the state, 0
+    where there are none; made when they are first asked for.
+    """
+    found, name = group.meta["guards"], f"{group.name}_tangent"
+    names = [name, f"{name}_clock", f"{name}_watch"]
+    there = [True, bool(found["clock"]), bool(found["watch"] or found["zone"])]
+
+    def compiled() -> bytes:
+        text = writer_of(kernels, group).tangents(group.name, group.meta["n_ints"])
+        return compiler.straight_code(text)
+
+    if name not in kernels.addresses:
+        code = recall(f"{name}.o", compiled)
+        known = [each for each, is_there in zip(names, there, strict=True) if is_there]
+        kernels.addresses.update(compiler.addresses([(code, known)]))
+    return tuple(kernels.addresses.get(each, 0) for each in names)
+
+
 def _kernels(group: ShapeGroup) -> tuple[str, Meta]:
     try:
         return group.writer.kernels(group.name)

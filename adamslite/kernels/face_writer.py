@@ -49,6 +49,12 @@ class FaceWriter:
 
         return write_lanes(self._shape(), name, mass)
 
+    def tangents(self, name: str, n_ints: int) -> str:
+        """LLVM text of the tangents of the shape; ``n_ints``: integers of an instance."""
+        from adamslite.kernels.code.tangent_writer import write_tangents
+
+        return write_tangents(self._shape(), name, self.face, n_ints)
+
     def _shape(self) -> Shape:
         from adamslite.kernels.code.shape import Shape
 
