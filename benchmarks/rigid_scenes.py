@@ -68,7 +68,14 @@ class Drawn:
         place = ",".join(repr(float(x) * self.length) for x in at)
         return f"MARKER/{number}, PART={part}, QP={place}\n"
 
-    def run(self, seconds: float) -> str:
+    def arm(self, mass: float, half: float) -> str:
+        """PART/2 along x from the origin, with MARKER/21 and MARKER/22 at its ends."""
+        ends = self.marker(21, 2, (-half, 0, 0)) + self.marker(22, 2, (half, 0, 0))
+        return self.part(2, mass, (half, 0, 0), 0.5 * half) + ends
+
+    def run(self, length: float, longest: float = 2.0) -> str:
+        """A run of 0.5 to `longest` times sqrt(length/g)."""
+        seconds = float(self.rng.uniform(0.5, longest) * (length / GRAVITY) ** 0.5)
         return f"SIMULATE/DYNAMIC, END={seconds!r}, STEPS=40\nEND\n"
 
 
@@ -88,11 +95,11 @@ def bushing(seed: int) -> Scene:
     words = ", ".join(f"{w}={','.join([repr(float(v * scale[w]))] * 3)}" for w, v in rows.items())
     head = d.head("Arms on a bushing", (float(d.rng.uniform(-0.3, 0.3)), 0.0))
     body = (
-        d.part(2, m, (L, 0, 0), 0.5 * L) + d.marker(21, 2, (-L, 0, 0)) + d.marker(22, 2, (L, 0, 0))
+        d.arm(m, L)
         + d.part(3, m * ratio, (3 * L, 0, 0), 0.5 * L) + d.marker(31, 3, (-L, 0, 0))
         + "JOINT/1, REVOLUTE, I=21, J=1\n"
     )  # fmt: skip
-    tail = d.run(float(d.rng.uniform(0.5, 2) * (L / GRAVITY) ** 0.5))
+    tail = d.run(L)
     return Scene(
         f"bushing as {kind}", "stiff-bushing",
         head + body + f"BUSHING/1, I=31, J=22, {words}\n" + tail,
@@ -111,7 +118,7 @@ def spring(seed: int) -> Scene:
     high, short = float(d.rng.uniform(0.5, 1.5)) * L, float(d.rng.uniform(0.3, 0.8)) * L
     out = float(d.rng.uniform(-0.3, 0.3)) * L
     body = (
-        d.part(2, m, (L, 0, 0), 0.5 * L) + d.marker(21, 2, (-L, 0, 0)) + d.marker(22, 2, (L, 0, 0))
+        d.arm(m, L)
         + d.part(3, m * d.decades(0.2, 5), (short, -high, out), 0.5 * short)
         + d.marker(31, 3, (-short, 0, 0)) + d.marker(32, 3, (short, 0, 0))
         + d.marker(5, 1, (0, -high, out))
@@ -123,7 +130,7 @@ def spring(seed: int) -> Scene:
         "SFORCE/1, TRANSLATIONAL, I=32, J=22\n"
         f", FUNCTION=-{k!r}*(DM(32,22)-{far!r})-{c!r}*VR(32,22)\n",
     )[d.rng.integers(2)]
-    tail = d.run(float(d.rng.uniform(0.5, 2) * (L / GRAVITY) ** 0.5))
+    tail = d.run(L)
     return Scene(
         "spring", "stiff-spring", head + body + law + tail,
         lambda _: head + body + f"GCON/1, FUNCTION=DM(32,22)-{far!r}\n" + tail,
@@ -157,7 +164,7 @@ def link(seed: int) -> Scene:
         + d.marker(41, 4, tuple(-x for x in half))
         + f"JOINT/3, {hinge}, I=41, J=22\nJOINT/4, {hinge}, I=42, J=32\n"
     )  # fmt: skip
-    tail = d.run(float(d.rng.uniform(0.5, 1.5) * (L / GRAVITY) ** 0.5))
+    tail = d.run(L, 1.5)
     return Scene(
         "link in a plane" if flat else "link in space", "light-link", head + body + rod + tail,
         lambda _: head + body + f"GCON/1, FUNCTION=DM(22,32)-{long * d.length!r}\n" + tail,
@@ -178,13 +185,13 @@ def lump(seed: int) -> Scene:
     way = ways[d.rng.integers(len(ways))]
     head = d.head("An arm in two pieces", (0.2, 0.3))
     body = (
-        d.part(2, m, (L, 0, 0), 0.5 * L) + d.marker(21, 2, (-L, 0, 0)) + d.marker(22, 2, (L, 0, 0))
+        d.arm(m, L)
         + d.marker(23, 2, (L, 0.5 * L, 0))
         + d.part(3, m * d.decades(0.2, 5), (3 * L, 0.3 * L, 0), 0.5 * L)
         + d.marker(31, 3, (-2 * L, -0.3 * L, 0)) + d.marker(33, 3, (-2 * L, 0.2 * L, 0))
         + "JOINT/1, SPHERICAL, I=21, J=1\n"
     )  # fmt: skip
-    tail = d.run(float(d.rng.uniform(0.5, 2) * (L / GRAVITY) ** 0.5))
+    tail = d.run(L)
     return Scene(
         "two pieces", "one-body", head + body + way + tail,
         lambda _: head + body + "JOINT/2, FIXED, I=31, J=22\n" + tail,

@@ -31,26 +31,48 @@ mass = 3
 [model]
 level = 1
 """
-#: The law of the winch below.
+#: The line with the law of HOIST.
 PAYOUT = 'payout = "0.5*TIME**2"'
-#: A winch lets a weight down.
-HOIST = f"""\
-end = 2
+
+
+def hoist(end: float, cable: str, radius: float, inertia: float, law: str, mass: float) -> str:
+    """A winch and a weight that hangs 20 m below it; `cable` are the lines of its table."""
+    return f"""\
+end = {end}
 [cable]
-EA = 2e7
-rho = 4
+{cable}
 [[route]]
 kind = "winch"
-at = [-0.5, 0, 0]
-radius = 0.5
-inertia = 25
+at = [{-radius}, 0, 0]
+radius = {radius}
+inertia = {inertia}
 turn = -1
-{PAYOUT}
+payout = "{law}"
 [[route]]
 kind = "mass"
 at = [0, -20, 0]
-mass = 1000
+mass = {mass}
 """
+
+
+def hung(end: float, cable: str, at: tuple[float, float], mass: float) -> str:
+    """A weight on a cable from the origin; `cable` are the lines of its table."""
+    return f"""\
+end = {end}
+[cable]
+{cable}
+[[route]]
+kind = "fixed"
+at = [0, 0, 0]
+[[route]]
+kind = "mass"
+at = [{at[0]}, {at[1]}, 0]
+mass = {mass}
+"""
+
+
+#: A winch lets a weight down.
+HOIST = hoist(2, "EA = 2e7\nrho = 4", radius=0.5, inertia=25, law="0.5*TIME**2", mass=1000)
 #: A closed belt that a winch drives.
 BELT = """\
 end = 0.1

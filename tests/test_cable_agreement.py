@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import pytest
+from descriptions import hoist, hung
 
 import adamslite
 from adamslite.cables.deck.scene import chosen, deck, drawn, setting, written
@@ -14,24 +15,14 @@ from adamslite.cables.recognition.report import about_cables, advice_on, by_desc
 from adamslite.editing.layout import formatted
 from benchmarks.rope_scenes import scene, toml
 
-HOIST = """title = "a hoist"
-end = 4
-[cable]
-EA = 1e7
-rho = 2     # kg/m
-damping = 0.1
-[[route]]
-kind = "winch"
-at = [-0.25, 0, 0]
-radius = 0.25
-inertia = 5
-turn = -1
-payout = "STEP5(TIME,1,0, 3,2.5)"
-[[route]]
-kind = "mass"
-at = [0, -20, 0]
-mass = 900
-"""
+HOIST = 'title = "a hoist"\n' + hoist(
+    end=4,
+    cable="EA = 1e7\nrho = 2     # kg/m\ndamping = 0.1",
+    radius=0.25,
+    inertia=5,
+    law="STEP5(TIME,1,0, 3,2.5)",
+    mass=900,
+)
 LOOP = """end = 1
 closed = true
 [cable]
@@ -49,18 +40,7 @@ at = [1, 0, 0]
 radius = 0.1
 inertia = 0.01
 """
-PENDULUM = """end = 3
-[cable]
-EA = 1e6
-rho = 0.1
-[[route]]
-kind = "fixed"
-at = [0, 0, 0]
-[[route]]
-kind = "mass"
-at = [3, -4, 0]
-mass = 100
-"""
+PENDULUM = hung(end=3, cable="EA = 1e6\nrho = 0.1", at=(3, -4), mass=100)
 
 
 def advice(text: str, p: float = 0.01) -> tuple[object, ...] | None:

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 import reeving_mistakes
 import water_mistakes
-from descriptions import ATWOOD, BELT, HOIST, PAYOUT, WIRE, folded
+from descriptions import ATWOOD, BELT, HOIST, PAYOUT, WIRE, folded, hung
 
 import adamslite
 from adamslite.api.trials import described
@@ -44,22 +44,10 @@ turn = 1
 mu = 1"""
 )
 SLIPPING = ATWOOD.replace("radius = 0.2", "radius = 0.2\nmu = 0.3", 1)
-HANGS = """\
-end = 0.1
-[cable]
-EA = 1e7
-rho = 0.1
-[[route]]
-kind = "fixed"
-at = [0, 0, 0]
-[[route]]
-kind = "mass"
-at = [0, -20, 0]
-mass = 200
-velocity = [0, 0, 0]
-[model]
-level = 2
-"""
+HANGS = (
+    hung(end=0.1, cable="EA = 1e7\nrho = 0.1", at=(0, -20), mass=200)
+    + "velocity = [0, 0, 0]\n[model]\nlevel = 2\n"
+)
 LAST = ATWOOD.index("[[route]]", ATWOOD.index("1.8"))
 # Code: (description, what is replaced, by what, the line and column of the caret).
 WRONG = reeving_mistakes.MISTAKES | water_mistakes.MISTAKES | {

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from descriptions import hoist, hung
 
 import adamslite as al
 from adamslite.api.trials import described, solver
@@ -19,37 +20,15 @@ from adamslite.cli.main import main
 from adamslite.errors import UsageError
 from adamslite.progress import Progress
 
-HUNG = """\
-end = 1
-[cable]
-EA = 1e6
-rho = 1
-[[route]]
-kind = "fixed"
-at = [0, 0, 0]
-[[route]]
-kind = "mass"
-at = [0, -20, 0]
-mass = 100
-velocity = [0, 0.1, 0]
-"""
-HOIST = """\
-end = 3
-[cable]
-EA = 1e7
-rho = 0.5
-[[route]]
-kind = "winch"
-at = [-0.3, 0, 0]
-radius = 0.3
-inertia = 5
-turn = -1
-payout = "STEP5(TIME,0,0,2,-4)"
-[[route]]
-kind = "mass"
-at = [0, -20, 0]
-mass = 500
-"""
+HUNG = hung(end=1, cable="EA = 1e6\nrho = 1", at=(0, -20), mass=100) + "velocity = [0, 0.1, 0]\n"
+HOIST = hoist(
+    end=3,
+    cable="EA = 1e7\nrho = 0.5",
+    radius=0.3,
+    inertia=5,
+    law="STEP5(TIME,0,0,2,-4)",
+    mass=500,
+)
 WINCHES = Path(al.__file__).parent.parent / "decks" / "cables" / "winches"
 Error = Callable[[int, float], float]
 
