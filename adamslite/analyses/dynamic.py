@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import signal
+import threading
 from dataclasses import dataclass, fields, replace
 from functools import partial
 from typing import TYPE_CHECKING
@@ -289,6 +291,12 @@ def is_held_down(system: System) -> bool:
     return decay * step > HELD_DOWN and decay * decay > squared
 
 
+def _is_interrupted_here() -> bool:
+    """Whether an interruption arrives in this thread; it does not in workers of a sweep."""
+    main = threading.current_thread() is threading.main_thread()
+    return main and signal.getsignal(signal.SIGINT) is not signal.SIG_IGN
+
+
 def _watched(
     system: System,
     method: Method,
@@ -299,6 +307,8 @@ def _watched(
 ) -> int:
     """Run; what is not over soon in a thread of its own, with a look at it from time to time."""
     code = _first_tries(system, method, judged)
+    if code == contract.PAUSED and progress is None and not _is_interrupted_here():
+        return _resumed(system, method, judged)
     if code != contract.PAUSED and not (progress and progress.is_due()):
         return code
     look = partial(_state, system, StepLimits(system), start, end)

@@ -74,10 +74,12 @@ def simulate(
     confirm: bool = False,
     files: SavedFiles | None = None,
     outputs: Iterable[str] = (),
+    notes: bool = True,
 ) -> Results:
     """Run a deck, a model or its kernels; ``commands`` are statements.
 
-    The other arguments are those of :func:`adamslite.simulate`.
+    Without ``notes`` the results say nothing of the run in words, which takes a while. The other
+    arguments are those of :func:`adamslite.simulate`.
 
     Raises
     ------
@@ -100,7 +102,7 @@ def simulate(
     wanted = (outputs,) if isinstance(outputs, str) else tuple(outputs)
     if wanted:
         _need_columns(session, wanted)
-    results = replace(_results(session, _carried_out(session, plan, began)), source=source)
+    results = replace(_results(session, _carried_out(session, plan, began), notes), source=source)
     if confirm:
         again = partial(
             simulate, scene, end, steps, commands=commands, progress=progress,
@@ -253,7 +255,7 @@ def _plan(
     return [*plan[:at], _dynamics(end, steps=steps, dtout=dtout), *plan[at + 1 :]]
 
 
-def _without_value(time: np.ndarray, names: tuple[str, ...], values: np.ndarray) -> str:
+def _without_value(time: np.ndarray, names: tuple[str, ...], values: np.ndarray) -> dict[str, str]:
     """The first columns with entries that are no numbers, and since when."""
     columns = np.flatnonzero(~np.isfinite(values).all(axis=0))
     texts = [
@@ -261,10 +263,10 @@ def _without_value(time: np.ndarray, names: tuple[str, ...], values: np.ndarray)
         for k in columns[:MOST_TOLD]
     ]
     more = f" and {len(columns) - MOST_TOLD} more" if len(columns) > MOST_TOLD else ""
-    return "; ".join(texts) + more
+    return {"no number": "; ".join(texts) + more} if texts else {}
 
 
-def _results(session: Session, cpu: tuple[float, float]) -> Results:
+def _results(session: Session, cpu: tuple[float, float], notes: bool) -> Results:
     system = session.system
     time, names, values = session.history.whole
     counts = session.counts.values()
@@ -277,8 +279,7 @@ def _results(session: Session, cpu: tuple[float, float]) -> Results:
         worst = _worst(session.balances)
         summary |= {"energy_gap": worst.gap, "energy_gap_explained": worst.explained}
     done = session.outcome.is_requested
-    without = _without_value(time, names, values)
-    meta = {**_meta(session), **({"no number": without} if without else {})}
+    meta = {**_meta(session), **_without_value(time, names, values)} if notes else {}
     return Results(
         time=time, names=names, values=values, meta=meta, outcome=session.outcome,
         message="" if done else _explained(session), summary=summary,

@@ -15,6 +15,7 @@ from adamslite.integrators import contract
 from adamslite.integrators.contract import KernelGroup
 from adamslite.language.interfaces import Key
 from adamslite.native.translate import Rows
+from adamslite.native.translate.records import address_of
 
 if TYPE_CHECKING:
     from adamslite.equations.jacobian_blocks import JacobianBlocks
@@ -88,7 +89,7 @@ class Instances:
         at = self.kernels.addresses
         kinds = ("residual", "jacobian", "track", "clock", "watch")
         entry = [at.get(f"{group.name}_{kind}", 0) for kind in kinds]
-        data = [len(group.instances), integers.ctypes.data, reals.ctypes.data]
+        data = [len(group.instances), address_of(integers), address_of(reals)]
         return [phase, *entry[:3], *data, *entry[3:]]
 
     def one_instance(self, groups: Rows[KernelGroup], k: int, instance: int) -> Rows[KernelGroup]:

@@ -78,7 +78,7 @@ class Job:
         """Carry out a run; one that fails is described, not raised."""
         try:
             deck = with_values(self.deck, self.given(number))
-            results = simulate(deck, commands=self.commands, **self.options)
+            results = simulate(deck, commands=self.commands, notes=False, **self.options)
         except DeckError as fault:
             first = next((each for each in fault.diagnostics if each.is_error), None)
             return self._without(number, INVALID, first.message if first else str(fault))

@@ -83,7 +83,7 @@ def _handed_out(
     job: Job, numbers: Sequence[int], workers: int, kind: str, each: float
 ) -> Iterator[list[Run]]:
     """By workers; ``each``: how long a run takes at first [s]."""
-    with _pool(job, min(workers, len(numbers)), kind) as (pool, lot_of):
+    with _told_of_death(), _pool(job, min(workers, len(numbers)), kind) as (pool, lot_of):
         at, waiting = 0, set[Future[tuple[float, list[Run]]]]()
         while at < len(numbers) or waiting:
             while at < len(numbers) and len(waiting) < 2 * workers:
@@ -93,14 +93,16 @@ def _handed_out(
                 at += size
             ready, waiting = wait(waiting, LOOK, FIRST_COMPLETED)
             for future in ready:
-                taken, runs = _result(future)
+                taken, runs = future.result()
                 each = 0.5 * (each + taken / len(runs))
                 yield runs
 
 
-def _result(future: Future[tuple[float, list[Run]]]) -> tuple[float, list[Run]]:
+@contextmanager
+def _told_of_death() -> Iterator[None]:
+    """A process that ends by itself is noticed when a lot is handed out, or when one is missed."""
     try:
-        return future.result()
+        yield
     except BrokenProcessPool:
         raise RunFailed(
             "a process that carried out runs has ended by itself, perhaps for lack of memory; "

@@ -18,6 +18,7 @@ A record may extend another one, whose fields then come first.
 
 from __future__ import annotations
 
+import ctypes
 import inspect
 import operator
 import sys
@@ -70,6 +71,13 @@ ARRAYS = {"Ints": "i64", "Reals": "double"}
 TYPES = {"i64": np.int64, "double": np.float64}
 
 
+def address_of(numbers: np.ndarray) -> int:
+    """Where the numbers of an array begin; ``numbers.ctypes`` takes five times as long."""
+    if numbers.size and numbers.flags.writeable:
+        return ctypes.addressof(ctypes.c_char.from_buffer(numbers.data))
+    return int(numbers.ctypes.data)
+
+
 class RecordField:
     """One field: its kind, its first slot and how many it takes; what Python reads and sets."""
 
@@ -78,6 +86,10 @@ class RecordField:
     def __init__(self, kind: Kind, at: int) -> None:
         self.kind = kind
         self.at = at
+
+    def empty(self) -> Any:
+        """What a field that refers to numbers holds when there are none."""
+        raise NotImplementedError
 
 
 class Scalar(RecordField):
@@ -138,6 +150,12 @@ class ByReference(RecordField):
 
     slots = 2
 
+    def empty(self) -> Any:
+        """An array, or rows, of no length."""
+        if isinstance(self.kind, RowsOf):
+            return Rows(self.kind.record, 0)
+        return np.zeros(0, TYPES[ARRAYS[self.kind]])
+
     def __get__(self, record: Record | None, owner: object = None) -> Any:
         if record is None:
             return self
@@ -154,7 +172,7 @@ class ByReference(RecordField):
         elif numbers.dtype != TYPES[ARRAYS[self.kind]] or not numbers.flags.c_contiguous:
             raise TypeError(f"{self.kind} must be dense and of 64 bits, not {numbers.dtype}")
         record._kept[self.at] = value
-        record._ints[self.at], record._ints[self.at + 1] = numbers.ctypes.data, value.size
+        record._ints[self.at], record._ints[self.at + 1] = address_of(numbers), value.size
 
 
 class Record:
@@ -166,6 +184,8 @@ class Record:
     references: ClassVar[tuple[str, ...]] = ()
     #: Found when first asked for.
     _address = 0
+    #: Of a record all of whose arrays are empty: its numbers, and what it keeps.
+    _blank: ClassVar[tuple[np.ndarray, dict[int, Any]]]
     #: Whether it holds addresses: such a record is not copied or cleared as a whole.
     refers: ClassVar[bool] = False
 
@@ -203,14 +223,19 @@ class Record:
         return record
 
     def _empty(self) -> None:
+        """Refer to empty arrays, which all records of a class share."""
+        kind = type(self)
+        if "_blank" not in vars(kind):
+            for name in self.references:
+                setattr(self, name, self.fields[name].empty())
+            kept = {self.fields[name].at: getattr(self, name) for name in self.references}
+            kind._blank = self._ints.copy(), kept
+        numbers, arrays = kind._blank
+        self._ints[:] = numbers
+        self._kept.update(arrays)
         for name, field in self.fields.items():
-            if isinstance(field, Nested):
+            if isinstance(field, Nested) and field.kind.refers:
                 getattr(self, name)._empty()
-            elif isinstance(field, ByReference):
-                if isinstance(field.kind, RowsOf):
-                    setattr(self, name, Rows(field.kind.record, 0))
-                else:
-                    setattr(self, name, np.zeros(0, TYPES[ARRAYS[field.kind]]))
 
     def __setattr__(self, name: str, value: object) -> None:
         if name not in self.fields and not name.startswith("_"):
