@@ -12,6 +12,7 @@ import sys
 import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING
 from urllib.parse import urlencode
 
 import adamslite as al
@@ -21,6 +22,9 @@ from adamslite.page.pictures import RATES, need_browser, write_film
 from adamslite.plots.style import save as save_figure
 from adamslite.results.results import Results
 from adamslite.scene import load_scene, run_scene
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 ROOT = Path(__file__).parent.parent
 FOLDER = Path(__file__).parent / "pictures"
@@ -43,19 +47,28 @@ PAGES = {"page": Picture("decks/tackle/hoisting.adm", 0.5, {"theme": "light"})}
 """Of the whole page, with its controls and plots."""
 PLOTS = {"hoist": ("docs/tutorials/hoist.toml", ("REQUEST/1.F2", "POINT_MASS/20.y"))}
 """Of a described cable scene: channels."""
+SWEEPS = {
+    "sweep": (
+        "decks/hanging-mass/hanging-mass.adm",
+        {"SPRINGDAMPER/1.K": "80:200:13", "POINT_MASS/2.MASS": "1,1.5,2"},
+        "min POINT_MASS/2.y",
+    )
+}  # fmt: skip
+"""Of a sweep: a deck, what varies, a measure."""
 FILMS = {"tackle": Picture("decks/tackle/hoisting.adm")}
 """Of the scene, as GIF."""
 
 
 def main() -> None:
     """Draw what the command names, or everything."""
-    names = sorted({*PAGES, *PLOTS, *FILMS})
+    names = sorted({*PAGES, *PLOTS, *SWEEPS, *FILMS})
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("names", nargs="*", choices=[*names, []], metavar="NAME", help=str(names))
     chosen = parser.parse_args().names or names
     FOLDER.mkdir(exist_ok=True)
     for table, suffix, draw in (
-        (PAGES, ".png", draw_page), (PLOTS, ".png", draw_plot), (FILMS, ".gif", draw_film),
+        (PAGES, ".png", draw_page), (PLOTS, ".png", draw_plot), (SWEEPS, ".png", draw_sweep),
+        (FILMS, ".gif", draw_film),
     ):  # fmt: skip
         for name in table.keys() & chosen:
             path = FOLDER / f"{name}{suffix}"
@@ -96,7 +109,17 @@ def draw_page(picture: Picture, path: Path) -> None:
 def draw_plot(plot: tuple[str, tuple[str, ...]], path: Path) -> None:
     """Of channels over the time."""
     description, channels = plot
-    figure = al.simulate(al.cable(ROOT / description)).plot(*channels)
+    save_figure_small(al.simulate(al.cable(ROOT / description)).plot(*channels), path)
+
+
+def draw_sweep(given: tuple[str, dict[str, str], str], path: Path) -> None:
+    """Of a measure over a number."""
+    deck, varied, measure = given
+    save_figure_small(al.sweep(ROOT / deck, varied, measures=measure).plot(), path)
+
+
+def save_figure_small(figure: Figure, path: Path) -> None:
+    """Write a figure with few colours."""
     with tempfile.TemporaryDirectory() as folder:
         raw = Path(folder) / "raw.png"
         save_figure(figure, raw)

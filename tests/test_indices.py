@@ -12,13 +12,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from sweep_tables import design, made
 
 import adamslite as al
 from adamslite.cli.main import main
 from adamslite.errors import UsageError
-from adamslite.sweeps.job import SUMMARY, Run
-from adamslite.sweeps.ranges import ranges_of, sampled
-from adamslite.sweeps.record import Sweep
 
 ISHIGAMI = """numbers alone
 UNITS/SYSTEM=MKS
@@ -52,34 +50,20 @@ def ishigami(values: np.ndarray) -> np.ndarray:
     return np.sin(a) + 7 * np.sin(b) ** 2 + 0.1 * c**4 * np.sin(a)
 
 
-def made(sample: str, measures: dict[str, np.ndarray], values: np.ndarray) -> Sweep:
-    """Runs that are done, with these measures."""
-    names = tuple("abc"[: values.shape[1]])
-    sweep = Sweep(names=names, values=values, measured=tuple(measures), meta={"sample": sample})
-    for k in range(len(values)):
-        row = tuple(each[k] for each in measures.values())
-        sweep.enter(Run(k, "DONE", "", (0.0,) * len(SUMMARY), row, np.empty(0), np.empty((0, 0))))
-    return sweep
-
-
-def design(points: int, *ranges: str, seed: int = 0) -> np.ndarray:
-    return sampled(ranges_of(ranges), f"saltelli:{points}", seed)
-
-
 def test_the_design_takes_one_number_after_the_other_from_b() -> None:
-    a, b, *mixed = np.split(design(8, "a=0:1", "b=10:20", "c=-1:0"), 5)
+    a, b, *mixed = np.split(design("saltelli:8", "a=0:1", "b=10:20", "c=-1:0"), 5)
     assert len(a) == 8 and not (a == b).any()
     for k, page in enumerate(mixed):
         assert (page[:, k] == b[:, k]).all()
         others = [n for n in range(3) if n != k]
         assert (page[:, others] == a[:, others]).all()
-    again = design(8, "a=0:1", "b=10:20", "c=-1:0")
+    again = design("saltelli:8", "a=0:1", "b=10:20", "c=-1:0")
     assert (again[:8] == a).all()
-    assert (design(8, "a=0:1", "b=10:20", "c=-1:0", seed=1)[:8] != a).any()
+    assert (design("saltelli:8", "a=0:1", "b=10:20", "c=-1:0", seed=1)[:8] != a).any()
 
 
 def test_indices_of_ishigami_are_those_of_its_closed_form() -> None:
-    values = design(4096, *FULL)
+    values = design("saltelli:4096", *FULL)
     found = made("saltelli:4096 seed 0", {"y": ishigami(values)}, values).indices()
     assert found.first[0] == pytest.approx(FIRST, abs=0.01)
     assert found.total[0] == pytest.approx(TOTAL, abs=0.01)
@@ -96,7 +80,7 @@ def test_indices_are_those_of_scipy_and_do_not_depend_on_scale_or_company() -> N
     theirs = sobol_indices(
         func=lambda x: ishigami(x.T), n=64, dists=[span] * 3, rng=np.random.default_rng(0)
     )
-    values = design(64, *FULL)
+    values = design("saltelli:64", *FULL)
     y = ishigami(values)
     measures = {"y": y, "scaled": 1e-9 * y - 5, "c alone": values[:, 2], "still": np.ones(len(y))}
     found = made("saltelli:64 seed 0", measures, values).indices()
@@ -208,7 +192,7 @@ def test_runs_without_indices_are_told(
 
 
 def test_runs_that_are_ahead_damaged_or_no_number_are_told(deck: str, capsys) -> None:
-    values = design(8, *FULL)
+    values = design("saltelli:8", *FULL)
     sweep = made("saltelli:8 seed 0", {"y": ishigami(values)}, values)
     sweep.outcomes[7] = ""
     with pytest.raises(UsageError, match="1 of 40 runs are ahead, from run 7 on"):

@@ -15,6 +15,7 @@ import pytest
 import adamslite as al
 from adamslite.cli.main import main
 from adamslite.errors import FormatError, UsageError
+from adamslite.results.channels import of_argument
 from adamslite.sweeps.measures import Measure, parsed
 from adamslite.sweeps.ranges import ranges_of, sampled
 from adamslite.sweeps.workers import carried_out
@@ -153,6 +154,19 @@ def test_runs_are_those_of_the_deck_with_other_numbers() -> None:
         alone = al.simulate(DECK.replace("-10", str(found[NAME][k])))
         assert (found["POINT_MASS/2.y"][k] == alone["POINT_MASS/2.y"]).all()
         assert found["steps"][k] == alone.summary["steps"]
+
+
+def test_numbers_have_the_units_of_the_deck() -> None:
+    symbols = {"force": "N", "length": "mm", "time": "s", "mass": "t"}
+    for dimension, unit in (
+        ("force time/length", "N s/mm"), ("torque/angle", "N mm/rad"), ("mass length^2", "t mm^2"),
+        ("length/time^2", "mm/s^2"), ("angle", "rad"), ("1", ""), ("the user's", ""),
+        ("force, torque", ""), ("length/time", "mm/s"),
+    ):  # fmt: skip
+        assert of_argument(dimension, symbols) == unit
+        assert of_argument(dimension, {}) == ("rad" if dimension == "angle" else "")
+    found = al.sweep(DECK, {NAME: [-1], "POINT_MASS/2.MASS": [1]}, measures=[LOWEST])
+    assert found.units[NAME] == "m/s^2" and found.units["POINT_MASS/2.MASS"] == "kg"
 
 
 @pytest.mark.parametrize("by", ["processes", "threads"])

@@ -19,6 +19,8 @@ from adamslite.reading.read import read
 from adamslite.results.formats import formats
 from adamslite.results.results import Results
 from adamslite.results.source import source_of
+from adamslite.sweeps import netcdf
+from adamslite.sweeps.record import Sweep
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -27,29 +29,42 @@ if TYPE_CHECKING:
 
 
 def plot(
-    results: Results | Deck | str | os.PathLike[str],
-    channels: str | Sequence[str],
+    results: Results | Sweep | Deck | str | os.PathLike[str],
+    channels: str | Sequence[str] = (),
     against: Reference | Results | str | os.PathLike[str] | None = None,
-    x: str = "time",
+    x: str | None = None,
     output: str | os.PathLike[str] | None = None,
     deck: Deck | str | os.PathLike[str] | None = None,
+    by: str | None = None,
+    band: tuple[float, float] | None = None,
+    pairs: bool = False,
+    indices: bool = False,
 ) -> Figure:
-    """Draw channels of results, as `adamslite plot` does; needs matplotlib.
+    """Draw channels of results, or the runs of a sweep, as `adamslite plot` does; needs
+    matplotlib.
 
     Parameters
     ----------
-    results : Results, Deck, str or Path
-        Results, a file of them, or a deck, which is solved first.
+    results : Results, Sweep, Deck, str or Path
+        Results, a sweep, a file of one of them, or a deck, which is solved first.
     channels : str or sequence of str
-        Names or patterns: ``PART/2.x``, ``JOINT/*.f?``.
+        Names or patterns: ``PART/2.x``, ``JOINT/*.f?``; of a sweep measures or histories, by
+        default all measures.
     against : Reference, Results, str or Path
         A reference, drawn with the band of its tolerance, or other results.
     x : str
-        The channel of the horizontal axis.
+        The channel of the horizontal axis; of a sweep the number that varies or the measure.
     output : str or Path
         A file for the figure: .png, .svg or .pdf.
     deck : Deck, str or Path
         That of results which carry none: statement names and units of requests come from it.
+    by : str
+        Of a sweep the number whose values are colours.
+    band : pair of float
+        Of a sweep a band of these percentiles in place of a line for each run: ``(0, 100)`` for
+        all, ``(5, 95)``.
+    pairs, indices : bool
+        Of a sweep measures and numbers over each other; Sobol indices.
 
     Raises
     ------
@@ -59,18 +74,40 @@ def plot(
         Without matplotlib, and when there is nothing to draw.
     """
     from adamslite.plots.style import need_matplotlib, need_suffix, save
+    from adamslite.plots.sweep_selection import Wanted
     from adamslite.plots.time_histories import plot as drawn
 
     need_matplotlib()
     if output is not None:
         need_suffix(Path(output))
-    beside = Path(against) if isinstance(against, os.PathLike) else against
-    figure = drawn(results_of(results, deck), channels, beside, x)
+    sweep = _sweep_of(results)
+    if sweep is not None:
+        if against is not None or deck is not None:
+            raise UsageError("against= and deck= belong to results, and this is a sweep")
+        from adamslite.plots.sweep_figures import sweep_figure
+
+        names = [channels] if isinstance(channels, str) else channels
+        wanted = Wanted(names=names, x=x, by=by, band=band, pairs=pairs, indices=indices)
+        figure = sweep_figure(sweep, wanted)
+    elif by or band or pairs or indices:
+        raise UsageError("by=, band=, pairs= and indices= belong to a sweep")
+    else:
+        assert not isinstance(results, Sweep)
+        beside = Path(against) if isinstance(against, os.PathLike) else against
+        figure = drawn(results_of(results, deck), channels, beside, x or "time")
     if output is not None:
         save(figure, Path(output))
     # A figure made without pyplot has no picture of its own for notebooks.
     setattr(figure, "_repr_png_", lambda: _png(figure))  # noqa: B010
     return figure
+
+
+def _sweep_of(given: object) -> Sweep | None:
+    """A sweep, or that of a file of one; None of anything else."""
+    if isinstance(given, Sweep):
+        return given
+    path = isinstance(given, os.PathLike) or (isinstance(given, str) and "\n" not in given)
+    return netcdf.read(Path(given)) if path and netcdf.holds_sweep(Path(given)) else None  # type: ignore[arg-type]
 
 
 def _png(figure: Figure) -> bytes:

@@ -3,7 +3,7 @@
     adamslite check  DECK                   what is wrong with a deck, and what it contains
     adamslite solve  DECK [COMMANDS.acf]    run it and write the results
     adamslite view   DECK|RESULT            write a page that shows how it moves, and open it
-    adamslite plot   RESULT CHANNEL ...     draw channels of results
+    adamslite plot   RESULT [CHANNEL ...]   draw channels of results, or the runs of a sweep
     adamslite diff   A B                    compare two result files
     adamslite verify [DIR|DECK ...]         run reference decks and compare
     adamslite linear DECK [COMMANDS.acf]    eigenvalues and modes of small motions
@@ -45,7 +45,7 @@ COMMANDS = {
     "check": "what is wrong with a deck, and what it contains",
     "solve": "run a deck and write the results",
     "view": "write a page that shows how it moves, and open it in the browser",
-    "plot": "plot channels of results",
+    "plot": "plot channels of results, or the runs of a sweep",
     "diff": "compare two result files",
     "verify": "run reference decks and compare",
     "linear": "eigenvalues and modes of small motions",

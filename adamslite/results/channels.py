@@ -7,6 +7,7 @@ others.
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from adamslite.language.units import SYMBOLS
@@ -161,6 +162,17 @@ def in_units(dimension: str, units: dict[str, str]) -> str:
     if not bottom:
         return upper
     return f"{upper}/{lower}" if upper and lower else ""
+
+
+def of_argument(dimension: str, units: dict[str, str]) -> str:
+    """The unit of an argument, ``force time/length``, as ``N s/m``; empty where it has none, or one
+    that depends on others.
+    """
+    known = {**units, ANGLE: "rad", TORQUE: in_units(TORQUE, units)}
+    words = set(re.findall(r"[a-z]+", dimension))
+    if not words or not all(known.get(word) for word in words) or "," in dimension:
+        return ""
+    return re.sub(r"[a-z]+", lambda word: known[word[0]], dimension)
 
 
 def unit_symbols(names: str) -> dict[str, str]:

@@ -123,6 +123,19 @@ def _words(file: Any, name: str, words: list[str]) -> None:
     variable._Encoding = TEXT.encode()
 
 
+def holds_sweep(path: str | Path) -> bool:
+    """Whether a file is there and has been written by :func:`write`."""
+    from scipy.io import netcdf_file
+
+    if Path(path).suffix.lower() != ".nc" or not Path(path).is_file():
+        return False
+    try:
+        with netcdf_file(path, "r") as file:
+            return "sweep" in file._attributes
+    except (*DAMAGED, OSError):
+        return False
+
+
 def read(path: str | Path) -> Sweep:
     """Read what :func:`write` wrote.
 

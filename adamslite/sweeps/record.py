@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+import adamslite
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import UnknownChannel
 from adamslite.sweeps.job import AHEAD, SUMMARY, Run
@@ -145,6 +146,12 @@ class Sweep:
     def indices(self, measures: str | Iterable[str] = ()) -> Any:
         """:func:`adamslite.indices` of these runs."""
         return import_module("adamslite.sweeps.saltelli").indices(self, measures)
+
+    def plot(self, *names: str, **options: Any) -> Any:
+        """Draw measures or histories; ``x``, ``by``, ``band``, ``pairs``, ``indices`` and
+        ``output`` as for :func:`adamslite.plot`.
+        """
+        return adamslite.plot(self, names, **options)
 
     def __repr__(self) -> str:
         done = len(self) - len(self.ahead)

@@ -21,7 +21,8 @@ from adamslite.kept_scene import tables_of
 from adamslite.model.reduction import kept_apart
 from adamslite.outputs.whole_files import need_writable
 from adamslite.progress import Progress
-from adamslite.results.channels import describe, unit_symbols
+from adamslite.reading.numbers import Named
+from adamslite.results.channels import describe, of_argument, unit_symbols
 from adamslite.results.selection import selected
 from adamslite.sweeps import netcdf
 from adamslite.sweeps.job import Job
@@ -144,7 +145,7 @@ def planned(
     channels = tuple(columns[k] for k in selected(columns, outputs)) if outputs else ()
     job = Job(deck, names, values, commands, options, tuple(kept), channels)
     symbols = unit_symbols(" ".join(deck.single("UNITS").names or ()))
-    units = {each.name: each.argument.unit for each in found}
+    units = {each.name: _unit_of_number(each, symbols) for each in found}
     units |= {str(each): _unit(each.kind, each.channel, symbols, deck) for each in kept}
     units |= {name: describe(name, symbols, deck).unit for name in channels}
     units["time"] = symbols.get("time", "")
@@ -155,6 +156,10 @@ def planned(
         key=_key(job, deck), meta=meta, units=units,
     )  # fmt: skip
     return job, made
+
+
+def _unit_of_number(number: Named, symbols: dict[str, str]) -> str:
+    return "degrees" if number.unit else of_argument(number.argument.unit, symbols)
 
 
 def _unit(kind: str, channel: str, symbols: dict[str, str], deck: Deck) -> str:
