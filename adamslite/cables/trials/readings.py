@@ -21,9 +21,9 @@ from adamslite.cables.statements.span_statements import is_kept
 SEEN = 0.5
 # Of the length of the cable: weights that move by less do not.
 STILL = 2e-8
-# How much smaller a difference may be than the one before it: powers 2 and 2/3 of the sections; and
-# safety on what that leaves.
-FASTEST, SLOWEST, SAFETY = 0.25, 0.63, 1.25
+# How much smaller a difference may be than the one before it: powers 2 and 2/3 of the sections; how
+# much larger, at most, where sections are too few to show a power; and safety on what that leaves.
+FASTEST, SLOWEST, LARGEST, SAFETY = 0.25, 0.63, 1.0, 1.25
 # Keeps quotients finite.
 NOTHING = 1e-12
 WORDS = ("greatest", "least", "mean")
@@ -147,6 +147,7 @@ def doubts_of(finer: Sequence[Readings], asked: tuple[str, ...]) -> dict[Key, np
 
     With d the last difference and f what it is of the one before, it is d f/(1 - f) where
     differences fall with one sign, with some safety: those of fronts fall more slowly. Where they
+    do not fall yet they are taken to fall as slowly as those of fronts from here on. Where they
     change their sign the truth lies within what the last three models span; of two models the
     difference is taken.
     """
@@ -160,9 +161,9 @@ def doubts_of(finer: Sequence[Readings], asked: tuple[str, ...]) -> dict[Key, np
         if len(finer) > 2:
             before = _difference(key, finer[-2], finer[-3], truth)
             share = last / np.where(before == 0, NOTHING, before)
-            falls = np.clip(share, FASTEST, SLOWEST)
+            next_one = np.abs(last) * np.clip(share, FASTEST, LARGEST)
             span = np.maximum(np.abs(last), np.abs(last + before))
-            rest = SAFETY * np.abs(last) * falls / (1 - falls)
+            rest = SAFETY * next_one / (1 - np.clip(share, FASTEST, SLOWEST))
             found[key] = np.where(share > 0, rest, span)
     return found
 

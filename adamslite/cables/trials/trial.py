@@ -23,6 +23,8 @@ WORTH = 1.2
 LOOSER = 3
 # Of the accuracy: a rigid cable that the linear model has further off is not tried.
 HOPELESS = 20.0
+# Of the difference of the last two rungs: models that differ by less are alike.
+ALIKE = 0.1
 
 
 @dataclass(frozen=True)
@@ -233,13 +235,16 @@ class _Choice:
         return "level 1" if model.level == 1 else self._counted(model.elements)
 
     def _unsettled(self) -> Found:
-        """A model that is not known to be good enough: the cheapest of those that are as near to
-        the finest one as the rungs are to one another, and as the one that is proposed."""
+        """A model that is not known to be good enough: as good as the finest one where differences
+        fall; else the cheapest of those that are as near to the finest one as the rungs are to one
+        another, and as the one that is proposed."""
         trial, before, rungs = self.trial, self.proposed.model, self.rungs
         if len(rungs) < 2 or self._asks_for_more():
             return self._as_proposed(rungs[-1] if rungs else None)
         self.doubts, self.room = None, trial.off(rungs[-2], rungs[-1])[0]
-        if rungs[0].option.elements == before.elements:
+        if trial.falls(rungs):
+            self.room *= ALIKE
+        elif rungs[0].option.elements == before.elements:
             self.room = min(self.room, trial.off(rungs[0], rungs[-1])[0])
         chosen = self._down(trial.good(rungs, self.room, None) or rungs[-1])
         off, where = trial.off(chosen, rungs[-1])

@@ -225,6 +225,12 @@ class Runs:
             return inf
         return self.off(rungs[-1], rungs[-1], self.doubts(rungs))[0]
 
+    def falls(self, rungs: list[Tried]) -> bool:
+        """Whether the last rungs are nearer to each other than the ones before."""
+        if len(rungs) < RUNGS:
+            return False
+        return self.off(rungs[-2], rungs[-1])[0] < self.off(rungs[-3], rungs[-2])[0]
+
     def good(self, rungs: list[Tried], room: float, doubts: Doubts | None) -> Tried | None:
         """The first rung that is good enough, as are those above it."""
         found = None
