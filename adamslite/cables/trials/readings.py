@@ -21,8 +21,8 @@ from adamslite.cables.statements.span_statements import is_kept
 SEEN = 0.5
 # Of the length of the cable: weights that move by less do not.
 STILL = 2e-8
-# How much smaller a difference may be than the one before it: powers 2 and 2/3 of the sections; how
-# much larger, at most, where sections are too few to show a power; and safety on what that leaves.
+# What a difference may be of the one before it: powers 2 and 2/3 of the sections; at most, where
+# sections are too few to show a power; and safety on what that leaves.
 FASTEST, SLOWEST, LARGEST, SAFETY = 0.25, 0.63, 1.0, 1.25
 # Keeps quotients finite.
 NOTHING = 1e-12
