@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from functools import cache
 from pathlib import Path
 
@@ -152,3 +153,22 @@ def test_few_modules_lie_directly_in_the_package() -> None:
 def test_every_room_says_what_it_holds(room: str) -> None:
     start = PACKAGE.joinpath(*room.split(".")) / "__init__.py"
     assert ast.get_docstring(ast.parse(start.read_text(encoding="utf-8")))
+
+
+def test_a_room_names_the_rooms_within_it() -> None:
+    """Its docstring is their table of contents."""
+    for room in FLOOR:
+        start = PACKAGE.joinpath(*room.split(".")) / "__init__.py"
+        within = [name.rpartition(".")[2] for name in FLOOR if name.rpartition(".")[0] == room]
+        if within:
+            said = ast.get_docstring(ast.parse(start.read_text(encoding="utf-8"))) or ""
+            missing = [name for name in within if not re.search(rf"\b{name}\b", said)]
+            assert not missing, f"{room}/__init__.py does not name {', '.join(missing)}"
+
+
+def test_the_map_of_the_folders_is_true() -> None:
+    """The table of docs/contributing.md has every folder, in the order of the floors."""
+    page = (PACKAGE.parent / "docs" / "contributing.md").read_text(encoding="utf-8")
+    table = page[page.index("| folder | stage |") :].split("\n\n")[0]
+    folders = [room.split(".")[0] for room in FLOOR if (PACKAGE / room.split(".")[0]).is_dir()]
+    assert re.findall(r"^\| `(\w+)` \|", table, re.M) == list(dict.fromkeys(folders))

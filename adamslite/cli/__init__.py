@@ -1,1 +1,1 @@
-"""The command `adamslite`: one module for each sub-command."""
+"""The command `adamslite`: main has its line, commands a module for each sub-command."""

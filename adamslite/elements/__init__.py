@@ -1,4 +1,7 @@
-"""The statements, one per file; :data:`adamslite.language.statement.STATEMENTS` finds them."""
+"""The statements, one per file; :data:`adamslite.language.statement.STATEMENTS` finds them.
+
+The room bases has what families of statements share.
+"""
 
 from collections.abc import Iterator
 from pkgutil import iter_modules

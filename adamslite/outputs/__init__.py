@@ -1,4 +1,7 @@
-"""Output files: formats of results, charts and tables of modes."""
+"""Output files: formats of results, modes, saved states; the room adams reads files of ADAMS.
+
+A module that registers a format is found by itself.
+"""
 
 from collections.abc import Iterator
 from pkgutil import iter_modules

@@ -8,8 +8,8 @@ rows are differentiated once with respect to the local inputs of
     residual(n, ints, reals, W, F)           F[row] -= load,  F[row] += row expression
     jacobian(n, ints, reals, W, c, J)        J[block] += c0 F_q + c1 F_u + c2 F_a + c3 F_z + c4 F_s'
     track   (n, ints, reals, W)              remembers angles at an accepted step
-    clock   (n, ints, reals, W, F)           guards of time (adamslite.symbolic.guards), F = their
-    values watch   (n, ints, reals, W, F)           guards of the state
+    clock   (n, ints, reals, W, F)           guards of time (adamslite.symbolic.guards)
+    watch   (n, ints, reals, W, F)           guards of the state
 
 q holds positions and rotations of bodies (and states s of DIFF), z multipliers and variables.
 W is the workspace (:mod:`adamslite.kernels.code.kinematics`), ``c`` five coefficients.  The

@@ -9,7 +9,7 @@ from adamslite.kernels.code.added_mass import ACCELERATIONS, is_added_mass, is_a
 from adamslite.kernels.code.clock_program import Instruction, clock_programs
 from adamslite.kernels.code.jacobian_writer import JacobianWriter
 from adamslite.kernels.code.residual_writer import ResidualWriter
-from adamslite.kernels.code.shape import Shape
+from adamslite.kernels.code.shape import Outputs, Shape
 from adamslite.native.translate import REGISTERED
 from adamslite.native.translate.modules import definitions
 from adamslite.native.translate.writer import module_text
@@ -93,16 +93,12 @@ def write_kernels(
         jacobian.jacobian(out)
         blocks = jacobian.blocks
         bodies.append((f"{name}_jacobian", JACOBIAN_HEAD, jacobian))
-    writer = ResidualWriter(shape, scope)
-    writer.residual(out)
-    bodies.append((f"{name}_residual", SIGNAL_HEAD if face == "signal" else RESIDUAL_HEAD, writer))
+    bodies.append(_of_residual(shape, scope, out, name, face))
     tracks = bool(shape.n_angles or shape.n_limits or scope.origins)
     if tracks:
-        writer = ResidualWriter(shape, scope)
-        writer.track()
-        bodies.append((f"{name}_track", TRACK_HEAD, writer))
+        bodies.append(_of_track(shape, scope, name))
     bodies += _of_guards(shape, scope, name)
-    n_ints, watch = shape.blocks_at + len(blocks), shape.guards.watch
+    n_ints = shape.blocks_at + len(blocks)
     meta = {
         "n_ints": n_ints,
         "blocks": blocks,
@@ -111,17 +107,38 @@ def write_kernels(
         "limits": len(scope.limits),
         "tracks": tracks,
         "guards": shape.guards.kinds,
-        "touches": [
-            (watch.index(relation), in_length)
-            for relation, in_length in scope.touches.items()
-            if relation in watch
-        ],
+        "touches": _touches(shape, scope),
         "clock": clock,
         "mass": any(leaf[0] in ACCELERATIONS for leaf in scope.symbols),
         "added_mass": is_added_mass(shape, scope, out),
         "along_axes": is_along_axes(scope, out),
     }
     return _module(bodies, n_ints, shape.n_reals), meta
+
+
+def _touches(shape: Shape, scope: Scope) -> list[tuple[int, bool]]:
+    """Of guards of the watch that tell whether something is touched their numbers, and whether
+    their gap is the distance."""
+    watch = shape.guards.watch
+    return [
+        (watch.index(relation), in_length)
+        for relation, in_length in scope.touches.items()
+        if relation in watch
+    ]
+
+
+def _of_residual(shape: Shape, scope: Scope, out: Outputs, name: str, face: str) -> Body:
+    """The kernel that evaluates what a shape writes."""
+    writer = ResidualWriter(shape, scope)
+    writer.residual(out)
+    return f"{name}_residual", SIGNAL_HEAD if face == "signal" else RESIDUAL_HEAD, writer
+
+
+def _of_track(shape: Shape, scope: Scope, name: str) -> Body:
+    """The kernel that follows what is remembered of accepted steps."""
+    writer = ResidualWriter(shape, scope)
+    writer.track()
+    return f"{name}_track", TRACK_HEAD, writer
 
 
 def _of_guards(shape: Shape, scope: Scope, name: str) -> Iterator[Body]:
