@@ -38,6 +38,7 @@ _HOME = {
     "check": "api.checks",
     "compare": "api.tools",
     "compile_model": "kernels.compile",
+    "fit": "api.fits",
     "fmt": "api.tools",
     "help": "api.tools",
     "html": "notebooks.html",

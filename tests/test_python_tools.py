@@ -30,8 +30,8 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 FUNCTIONS = {
     "check": al.check, "solve": al.simulate, "diff": al.compare, "verify": al.verify,
     "linear": al.linearize, "chart": al.chart, "cable": al.cable, "cache": al.cache,
-    "fmt": al.fmt, "help": al.help, "names": al.names, "plot": al.plot, "sweep": al.sweep,
-    "view": al.view, "indices": al.indices,
+    "fit": al.fit, "fmt": al.fmt, "help": al.help, "names": al.names, "plot": al.plot,
+    "sweep": al.sweep, "view": al.view, "indices": al.indices,
 }  # fmt: skip
 
 

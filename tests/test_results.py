@@ -75,7 +75,7 @@ def test_names_with_commas_are_quoted(tmp_path: Path) -> None:
         ("time,a\n0,1\n1\n", ":3: 1 values where the header has 2 columns"),
         ("time,a\n0,1,2\n", ":2: 3 values where the header has 2 columns"),
         ("time,a\n0,1\n1,x\n", ":3: 'x' is not a number"),
-        ("time,a\n0,\n", "the table has an empty cell"),
+        ("time,a\n0,\n", ":2: a cell is empty; write nan where there is no number"),
     ],
 )
 def test_a_file_that_is_no_table_is_explained(tmp_path: Path, text: str, message: str) -> None:

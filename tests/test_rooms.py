@@ -67,6 +67,7 @@ command_files
 result_files
 sweeps
 verification
+fitting
 plots
 manual
 editing

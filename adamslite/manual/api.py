@@ -26,6 +26,7 @@ RETURNED = (
     "verification.verification.Verdict",
     "sweeps.record.Sweep",
     "sweeps.saltelli.SobolIndices",
+    "fitting.record.Fit",
     "verification.work_precision.Chart",
     "api.tools.Kept",
 )

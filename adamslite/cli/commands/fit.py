@@ -1,0 +1,100 @@
+"""fit numbers of a deck to a measurement
+
+MEASURED is a table with `time` first and columns that are called as the results of DECK; units may
+stand behind names (`REQUEST/1.F2 [kN]`). Lines `# tolerance NAME: abs A rel R` are its bands, by
+which residuals are weighted; of channels without one the noise is estimated. The numbers of --by
+(`adamslite names` lists them) are fitted by least squares and printed with standard errors and
+correlations, and what the measurement cannot tell is named. DECK with the fitted numbers goes to
+its name with .fitted.adm in the current directory, or to OUT. Exit code 1: some numbers are not
+told; 4: the fit stopped early.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+from adamslite.cli.commands.codes import DONE, OUTSIDE_TOLERANCE, STOPPED_EARLY
+from adamslite.run_flags import add_user_flag, add_values_flag, count, positive
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments of `adamslite fit`."""
+    parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
+    parser.add_argument("measured", metavar="MEASURED", type=Path, help="what was measured (.csv)")
+    parser.add_argument(
+        "--by", metavar="NAME", nargs="+", action="extend", required=True,
+        help="numbers to fit: SPRINGDAMPER/1.K, L_0; may be repeated",
+    )  # fmt: skip
+    parser.add_argument(
+        "--bounds", metavar="NAME=LOW:HIGH", nargs="+", action="extend", default=[],
+        help="limits of a number, either end may be left out; one above zero stays there unless "
+        "LOW is below zero",
+    )  # fmt: skip
+    parser.add_argument(
+        "--of", metavar="COLUMN", nargs="+", action="extend", default=[],
+        help="fit these columns of MEASURED alone: 'REQUEST/*', PART/2.y",
+    )  # fmt: skip
+    parser.add_argument("--from", dest="start", type=float, metavar="T", help="fit from this time")
+    parser.add_argument("--to", dest="until", type=float, metavar="T", help="fit up to this time")
+    parser.add_argument("-o", "--output", metavar="OUT", help="file of the fitted deck (.adm)")
+    parser.add_argument(
+        "--plot", metavar="FIGURE", help="draw measured and fitted curves (.png, .svg, .pdf)"
+    )
+    parser.add_argument(
+        "--commands", metavar="COMMANDS.acf", type=Path,
+        help="command file; without it the .acf beside the deck",
+    )  # fmt: skip
+    add_user_flag(parser)
+    add_values_flag(parser)
+    flags = parser.add_argument_group("run", "these win over the deck and the command file")
+    flags.add_argument("--end", type=positive, metavar="T", help="end time")
+    flags.add_argument("--steps", type=count, metavar="N", help="number of output steps")
+    flags.add_argument("--integrator", type=str.upper, metavar="NAME", help="GSTIFF, ...")
+    flags.add_argument("--error", type=positive, metavar="TOL", help="integration error per step")
+    flags.add_argument("--hmax", type=positive, metavar="H", help="largest step")
+    parser.add_argument("--quiet", action="store_true", help="show no progress")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Fit, print the table and write the deck; return the exit code."""
+    from adamslite.fitting.fit import Wanted, fit
+    from adamslite.outputs.whole_files import need_writable
+    from adamslite.progress import Progress, TalkingProgress
+    from adamslite.scene import load_scene
+    from adamslite.variation.decks import with_values
+    from adamslite.verification.reference_file import read_reference
+
+    output = args.output or f"{args.deck.stem}.fitted.adm"
+    if args.plot:
+        _need_figure(args.plot)
+    scene = load_scene(args.deck, args.commands, args.user)
+    reference = read_reference(args.measured)
+    for path, named in ((output, bool(args.output)), (args.plot, True)):
+        if path:
+            need_writable(path, [*scene.read, args.measured], named)
+    flags = ("end", "steps", "integrator", "error", "hmax")
+    options = {name: getattr(args, name) for name in flags if getattr(args, name) is not None}
+    wanted = Wanted(args.by, args.bounds, args.of, (args.start, args.until))
+    progress = Progress() if args.quiet else TalkingProgress()
+    deck = with_values(scene.deck, args.values) if args.values else scene.deck
+    try:
+        found = fit(deck, reference, wanted, scene.commands, options, progress)
+    finally:
+        progress.close()
+    sys.stdout.write(f"{found}\n")
+    found.save(output)
+    sys.stderr.write(f"{output}: the deck with these numbers\n")
+    if args.plot:
+        found.plot(args.plot)
+        sys.stderr.write(f"{args.plot}: measured and fitted curves\n")
+    if found.stopped:
+        return STOPPED_EARLY
+    return DONE if found.is_told else OUTSIDE_TOLERANCE
+
+
+def _need_figure(path: str) -> None:
+    """Fail before the fit rather than after it."""
+    from adamslite.plots.style import need_matplotlib, need_suffix
+
+    need_matplotlib()
+    need_suffix(path)

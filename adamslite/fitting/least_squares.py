@@ -1,0 +1,149 @@
+"""Weighted least squares by scipy: the numbers with which curves come closest to a measurement.
+
+Equation::
+
+    minimise  sum over times t and channels c of  ((y_c(t; p) - m_c(t)) / sigma_c(t))^2
+
+by the trust-region reflective method, in the coordinates of :mod:`adamslite.fitting.parameters`.
+A run that fails makes the region smaller.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from adamslite.fitting.curves import Curves, Failed, Runs
+from adamslite.fitting.measured import Measured
+
+#: Changes of the sum of squares, and of coordinates, below which nothing is gained any more.
+LEAST_GAIN, LEAST_STEP = 1e-9, 1e-9
+#: So many trial points at most.
+MOST_TRIALS = 100
+#: Parts of the times that are fitted one after the other, where all at once lead nowhere.
+STAGES = (1.0 / 32.0, 1.0 / 8.0, 0.5, 1.0)
+
+
+class Solved(NamedTuple):
+    """Where the search ended.
+
+    ``x`` (np,), ``values`` of the numbers, ``curves`` there, ``why``: empty, or a sentence on what
+    stopped it before its end.
+    """
+
+    x: np.ndarray
+    values: tuple[float, ...]
+    curves: Curves
+    why: str = ""
+
+
+@dataclass
+class Search:
+    """The least squares of one measurement.
+
+    Parameters
+    ----------
+    runs : Runs
+    measured : Measured
+    sigmas : (nt, nc) array
+        What residuals are divided by.
+    """
+
+    runs: Runs
+    measured: Measured
+    sigmas: np.ndarray
+    known: dict[tuple[float, ...], Any] = field(default_factory=dict)
+    """Curves by values, or the :class:`Failed` of a run."""
+
+    def values(self, x: np.ndarray) -> tuple[float, ...]:
+        """The numbers of coordinates."""
+        pairs = zip(self.runs.parameters, x, strict=True)
+        return tuple(parameter.value(each) for parameter, each in pairs)
+
+    def residuals(self, curves: np.ndarray) -> np.ndarray:
+        """Differences as parts of sigma, where something was measured (n,)."""
+        return weighted(curves, self.measured, self.sigmas)
+
+    def jacobian(self, x: np.ndarray, curves: Curves) -> np.ndarray:
+        """Derivatives of the residuals by the coordinates (n, np)."""
+        slopes = np.array([p.slope(each) for p, each in zip(self.runs.parameters, x, strict=True)])
+        found = curves.derivatives / self.sigmas[:, :, None] * slopes
+        return np.asarray(found[self.measured.known])
+
+    def at(self, x: np.ndarray) -> np.ndarray:
+        """Residuals (n,); not numbers where the run fails."""
+        values = self.values(x)
+        if values not in self.known:
+            try:
+                self.known[values] = self.runs.curves(values, self.measured)
+            except Failed as fault:
+                self.known[values] = fault
+        found = self.known[values]
+        if isinstance(found, Failed):
+            return np.full(self.measured.count, np.nan)
+        return self.residuals(found)
+
+    def slopes(self, x: np.ndarray) -> np.ndarray:
+        """The Jacobian (n, np)."""
+        curves = self.runs.curves_and_derivatives(self.values(x), self.measured)
+        return self.jacobian(x, curves)
+
+    def solve(self, start: np.ndarray, part: float = 1.0) -> tuple[np.ndarray, str]:
+        """Coordinates of the least squares, and why it ended early, which may be empty.
+
+        ``part``: of the times, from the first on.
+        """
+        from scipy.optimize import least_squares
+
+        rows = self._rows(part)
+        low, high = (
+            np.array(
+                [p.coordinate(each) for p, each in zip(self.runs.parameters, ends, strict=True)]
+            )
+            for ends in zip(*((p.low, p.high) for p in self.runs.parameters), strict=True)
+        )
+        tried: list[np.ndarray] = []
+
+        def residuals(x: np.ndarray) -> np.ndarray:
+            tried.append(x.copy())
+            return self.at(x)[rows]
+
+        try:
+            found = least_squares(
+                residuals, start, lambda x: self.slopes(x)[rows], bounds=(low, high), method="trf",
+                ftol=LEAST_GAIN, xtol=LEAST_STEP, gtol=1e-12, x_scale=1.0, max_nfev=MOST_TRIALS,
+            )  # fmt: skip
+        except Failed as fault:  # of all runs for derivatives
+            best = self._best(tried, rows, start)
+            return best, f"no derivatives at {self._told(best)}: {fault}"
+        if found.status == 0:
+            return found.x, f"not settled after {MOST_TRIALS} trials"
+        failed = self.known.get(self.values(tried[-1]))
+        if found.status == 3 and isinstance(failed, Failed):
+            return found.x, f"stopped beside {self._told(tried[-1])}, where runs fail: {failed}"
+        return found.x, ""
+
+    def _rows(self, part: float) -> np.ndarray:
+        """The residuals of the first part of the times (n,)."""
+        time = self.measured.time
+        until = time[0] + part * (time[-1] - time[0])
+        inside = np.broadcast_to((time <= until)[:, None], self.measured.known.shape)
+        return np.asarray(inside[self.measured.known])
+
+    def _best(self, tried: Sequence[np.ndarray], rows: np.ndarray, start: np.ndarray) -> np.ndarray:
+        """The best of the points that were tried."""
+        costs = [np.sum(self.at(x)[rows] ** 2) for x in tried]
+        finite = [k for k, cost in enumerate(costs) if np.isfinite(cost)]
+        return tried[min(finite, key=lambda k: costs[k])] if finite else start
+
+    def _told(self, x: np.ndarray) -> str:
+        pairs = zip(self.runs.parameters, self.values(x), strict=True)
+        return ", ".join(f"{parameter.name}={value:.6g}" for parameter, value in pairs)
+
+
+def weighted(curves: np.ndarray, measured: Measured, sigmas: np.ndarray) -> np.ndarray:
+    """Differences of curves from a measurement as parts of sigma (n,)."""
+    return np.asarray((measured.apart(curves) / sigmas)[measured.known])
