@@ -34,6 +34,7 @@ if TYPE_CHECKING:  # few runs need sparse matrices
     from adamslite.equations.broken_motion import Break
     from adamslite.integrators.audit_record import Audit
     from adamslite.integrators.event_rows import Search
+    from adamslite.integrators.tape_record import Tape
     from adamslite.kernels.groups import Kernels
     from adamslite.language.statement import Statement
     from adamslite.model.model import NodeKey
@@ -86,6 +87,7 @@ class System:
     search: Search
     undoing: contract.Undoing
     audit: Audit
+    tape: Tape
     q: np.ndarray
     u: np.ndarray
     a: np.ndarray

@@ -59,6 +59,7 @@ paces           of :class:`Pace`
 lane_runs lane  of :class:`LaneRun`: loads that are evaluated by component; numbers of the bodies
                 for that, in rows of equal length;  lane_bodies: those with other loads
 audit           balance of energy (:class:`Audit`);  uncounted: counts before it was drawn up
+tape            accepted states of the run (:class:`Tape`)
 pattern         per iteration whether it renews the Newton matrix, repeated; empty: as needed
 ==============  =================================================================================
 """
@@ -67,6 +68,7 @@ from __future__ import annotations
 
 from adamslite.integrators.audit_record import Audit
 from adamslite.integrators.event_rows import Search, SensorRow
+from adamslite.integrators.tape_record import Tape
 from adamslite.native.translate import Ints, Reals, Record, Rows
 
 # What the groups of kernels contribute, one bit each.
@@ -385,6 +387,7 @@ class Problem(Record):
     lane_runs: Rows[LaneRun]
     lane: Reals
     lane_bodies: Ints
+    tape: Tape
 
 
 # Least length of ``P.work``.

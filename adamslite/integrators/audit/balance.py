@@ -14,6 +14,7 @@ An integrator calls :func:`audit` at every accepted step, with its end in the wo
 from __future__ import annotations
 
 from adamslite.integrators.audit.path import lay_path
+from adamslite.integrators.audit.tape import tape_event, tape_step
 from adamslite.integrators.audit.work import MOST_PANELS, power_at, work_on_panel
 from adamslite.integrators.contract import STORED_ENERGY, Problem
 from adamslite.integrators.linalg.plan import Plan
@@ -31,7 +32,10 @@ def audit(P: Problem, L: Plan, t: float) -> None:
 @native
 @seldom
 def add_step(P: Problem, L: Plan, t: float) -> None:
-    """Add the step to ``t`` to the balance."""
+    """Add the step to ``t`` to the balance, or to the tape."""
+    if P.tape.width > 0:
+        tape_step(P, t)
+        return
     A, old, new = P.audit.now, P.audit.previous, P.audit.present
     for k in range(P.W.size):
         new[k] = P.W[k]
@@ -77,6 +81,9 @@ def start_balance(P: Problem) -> None:
 def audit_from(P: Problem, t: float) -> None:
     """Go on from the workspace's state: accelerations or velocities have changed there."""
     if not P.audit.on:
+        return
+    if P.tape.width > 0:
+        tape_event(P, t)
         return
     for k in range(P.W.size):
         P.audit.previous[k] = P.W[k]

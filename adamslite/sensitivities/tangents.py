@@ -1,0 +1,174 @@
+"""Derivatives of the equations, in a direction of the state and by a number of the deck.
+
+    dF = F_q (dx, theta) + F_u du + F_a da + F_z dz + F_s' ds' + F_p
+
+Kernels give those of loads, constraints and equations (:mod:`adamslite.kernels.code.tangent_writer`);
+inertia forces are M (a - g) and J al + w x J w with
+
+    dJ = [theta] J - J [theta] + R dI R^T
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.contract import SIGNALS, STATE_ORIGIN, Problem
+from adamslite.integrators.motion_equations import PART, rotated_inertia
+from adamslite.kernels.code.workspace import HEAD
+from adamslite.native.translate import Reals, call_address, native
+from adamslite.sensitivities.contract import Tangents
+
+
+@native
+def put_direction(
+    P: Problem, D: Tangents, y: Reals, a: Reals, z: Reals, rates: Reals, time: float
+) -> None:
+    """A direction of the state into the derivative of the workspace: ``y`` (places and turns,
+    velocities, states), accelerations, multipliers and variables, rates of states, the time.
+    """
+    n, ns, first, W, d = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv, P.W, D.dW
+    for k in range(P.W.size):
+        d[k] = 0.0
+    d[0] = time
+    for b in range(P.sizes.nb):
+        i, o = P.body[b].first, P.body[b].at
+        for k in range(3):
+            d[o + k], d[o + 3 + k], d[o + 6 + k] = y[i + k], y[n + i + k], a[i + k]
+        if P.body[b].width == PART:
+            x0, x1, x2 = y[i + 3], y[i + 4], y[i + 5]
+            for k in range(3):
+                d[o + 9 + k], d[o + 12 + k] = y[n + i + 3 + k], a[i + 3 + k]
+                r0, r1, r2 = W[o + 15 + k], W[o + 18 + k], W[o + 21 + k]
+                d[o + 15 + k] = x1 * r2 - x2 * r1
+                d[o + 18 + k] = x2 * r0 - x0 * r2
+                d[o + 21 + k] = x0 * r1 - x1 * r0
+    for k in range(first):
+        d[P.scalar[k]] = z[k]
+    for k in range(ns):
+        o = P.scalar[first + k]
+        d[o], d[o + 1], d[o + STATE_ORIGIN] = y[2 * n + k], rates[k], 0.0
+
+
+@native
+def put_signals(P: Problem, D: Tangents, number: int) -> None:
+    """Derivatives of the VARIABLEs of TIME by a number (-1: none) and the time."""
+    if P.sizes.n_head == HEAD or (D.dW[0] == 0.0 and (number < 0 or D.signals[number] == 0)):
+        return
+    for k in range(P.sizes.ng):
+        if P.group[k].phases & SIGNALS:
+            reals = of_signals(P, D, number, k)
+            call_address(
+                D.group[k].residual, P.group[k].count, P.group[k].ints, P.group[k].reals, P.W,
+                reals, D.dW, D.dW,
+            )  # fmt: skip
+
+
+@native
+def of_signals(P: Problem, D: Tangents, number: int, k: int) -> int:
+    """The address of the derivatives of all reals of a group of signals."""
+    if number >= 0:
+        for p in range(D.piece_at[number], D.piece_at[number + 1]):
+            if D.piece[p].group == k:
+                return D.piece[p].reals
+    return D.nothing
+
+
+@native
+def tangent(P: Problem, D: Tangents, number: int, phases: int, F: Reals) -> None:
+    """F = the derivative of the equations of ``phases`` in the direction in ``dW`` and by a number
+    (-1: none) at the workspace's state.
+    """
+    for k in range(P.sizes.nz):
+        F[k] = 0.0
+    put_signals(P, D, number)
+    inertia_tangent(P, D, number, F)
+    directed(P, D, phases, F)
+    by_number(P, D, number, phases, F)
+    for k in range(P.dead.size):
+        F[P.dead[k]] = 0.0
+
+
+@native
+def directed(P: Problem, D: Tangents, phases: int, F: Reals) -> None:
+    """Add what kernels of the phases change by in the direction in ``dW``."""
+    g = P.group
+    for k in range(P.sizes.ng):
+        if g[k].phases & phases:
+            call_address(
+                D.group[k].residual, g[k].count, g[k].ints, g[k].reals, P.W, D.nothing, D.dW, F
+            )
+
+
+@native
+def by_number(P: Problem, D: Tangents, number: int, phases: int, F: Reals) -> None:
+    """Add what kernels of the phases change by with a number, the state being what it is."""
+    if number < 0:
+        return
+    g = P.group
+    for p in range(D.piece_at[number], D.piece_at[number + 1]):
+        k, first = D.piece[p].group, D.piece[p].first
+        if g[k].phases & phases:
+            call_address(
+                D.group[k].residual, D.piece[p].count, g[k].ints + 8 * first * D.group[k].of_ints,
+                g[k].reals + 8 * first * D.group[k].of_reals, P.W, D.piece[p].reals, D.none, F,
+            )  # fmt: skip
+
+
+@native
+def inertia_tangent(P: Problem, D: Tangents, number: int, F: Reals) -> None:
+    """The derivative of the inertia forces."""
+    W, d, g, nb = P.W, D.dW, P.gravity, P.sizes.nb
+    for b in range(nb):
+        i, o, m = P.body[b].first, P.body[b].at, P.mass[b]
+        for k in range(3):
+            F[i + k] = m * d[o + 6 + k]
+        if number >= 0:
+            dm = D.mass[number * nb + b]
+            for k in range(3):
+                F[i + k] += dm * (W[o + 6 + k] - g[k]) - m * D.gravity[3 * number + k]
+        if P.body[b].width == PART:
+            turning_tangent(P, D, number, b, F)
+
+
+@native
+def turning_tangent(P: Problem, D: Tangents, number: int, b: int, F: Reals) -> None:
+    """The same of J al + w x J w of a part; theta is read from dR R^T."""
+    W, d, i, o, work = P.W, D.dW, P.body[b].first, P.body[b].at, P.work
+    rotated_inertia(P, b, o, work)
+    for r in range(3):
+        for c in range(3):
+            total = 0.0
+            for k in range(3):
+                total += d[o + 15 + 3 * r + k] * W[o + 15 + 3 * c + k]
+            work[9 + 3 * r + c] = total
+    for r in range(3):
+        for c in range(3):
+            total = 0.0
+            for k in range(3):
+                total += work[9 + 3 * r + k] * work[3 * k + c]
+                total -= work[3 * r + k] * work[9 + 3 * k + c]
+            work[18 + 3 * r + c] = total
+    if number >= 0:
+        inertia_by_number(P, D, number, b)
+    for k in range(3):
+        jw, djw, ja = 0.0, 0.0, 0.0
+        for c in range(3):
+            jw += work[3 * k + c] * W[o + 9 + c]
+            djw += work[18 + 3 * k + c] * W[o + 9 + c] + work[3 * k + c] * d[o + 9 + c]
+            ja += work[18 + 3 * k + c] * W[o + 12 + c] + work[3 * k + c] * d[o + 12 + c]
+        work[27 + k], work[30 + k], F[i + 3 + k] = jw, djw, ja
+    for k in range(3):
+        p, q = (k + 1) % 3, (k + 2) % 3
+        F[i + 3 + k] += d[o + 9 + p] * work[27 + q] - d[o + 9 + q] * work[27 + p]
+        F[i + 3 + k] += W[o + 9 + p] * work[30 + q] - W[o + 9 + q] * work[30 + p]
+
+
+@native
+def inertia_by_number(P: Problem, D: Tangents, number: int, b: int) -> None:
+    """Add R dI R^T to dJ."""
+    W, o, tensor = P.W, P.body[b].at, D.inertia[9 * (number * P.sizes.nb + b) :]
+    for r in range(3):
+        for c in range(3):
+            total = 0.0
+            for k in range(3):
+                for m in range(3):
+                    total += W[o + 15 + 3 * r + k] * tensor[3 * k + m] * W[o + 15 + 3 * c + m]
+            P.work[18 + 3 * r + c] += total

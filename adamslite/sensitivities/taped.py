@@ -1,0 +1,151 @@
+"""A run that keeps its tape, and the derivatives along it."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from adamslite.analyses.begun_again import Beginning
+from adamslite.analyses.dynamic import integrate, make_ready
+from adamslite.analyses.method_choice import MethodChoice
+from adamslite.analyses.session import Session
+from adamslite.equations.engine import address_of, ints
+from adamslite.errors import UsageError
+from adamslite.integrators.bdf.history import room
+from adamslite.integrators.contract import AUDIT, DONE
+from adamslite.integrators.tape_record import TAPE_HEAD
+from adamslite.results.outcomes import Outcome
+from adamslite.sensitivities.begin import ROWS
+from adamslite.sensitivities.contract import Forward
+from adamslite.sensitivities.directions import Collected, Direction, Snapshot, tangent_groups
+
+if TYPE_CHECKING:
+    from adamslite.equations.system import System
+
+#: By method: the native function that follows its tape.
+FORMULAS = {"GSTIFF": "adamslite.sensitivities.differences.by_differences"}
+WITHOUT = "derivatives are worked out along the steps of {known}; {method} is none of them"
+SEVERAL = (
+    "derivatives are those of one dynamic analysis: here a second one follows (several SIMULATE, "
+    "or a SENSOR from which the analysis continues)"
+)
+# Rows of a first tape, and how much longer the next one is.
+FIRST_ROWS, LONGER = 1000, 8
+
+
+class Ready(Exception):
+    """An analysis is about to begin to step."""
+
+    def __init__(self, snapshot: Snapshot) -> None:
+        super().__init__()
+        self.snapshot = snapshot
+
+
+class Probe(Session):
+    """Comes to where a dynamic analysis begins, and says what it begins with."""
+
+    def _integrated(self, system: System, times: np.ndarray, apart: float) -> Outcome:
+        raise Ready(Snapshot.of(system))
+
+    def _take(self, choice: MethodChoice) -> None:
+        super()._take(allowed(choice))
+
+
+class Taped(Session):
+    """Follows the tape of a run with ``follow(system)``."""
+
+    follow: Callable[[System, str], np.ndarray]
+    sensitive: np.ndarray | None = None
+
+    def _take(self, choice: MethodChoice) -> None:
+        super()._take(allowed(choice))
+
+    def _integrated(self, system: System, times: np.ndarray, apart: float) -> Outcome:
+        if self.sensitive is not None:
+            raise UsageError(SEVERAL)
+        settings, rows = self.chosen.settings, FIRST_ROWS
+        beginning = Beginning(system)
+        while True:
+            make_ready(system, times, apart, settings)
+            lay_tape(system, rows)
+            outcome = integrate(system, settings, self.whole)
+            system.audit.on = False
+            if not system.tape.full:
+                break
+            rows *= LONGER
+            beginning.return_to()
+        if outcome is Outcome.DONE:
+            system.instances.remember(beginning.memories)
+            self.sensitive = self.follow(system, settings.method)
+        system.tape.width = 0
+        return outcome
+
+
+def allowed(choice: MethodChoice) -> MethodChoice:
+    """The method, which AUTO has chosen only where derivatives can follow it.
+
+    Raises
+    ------
+    UsageError
+        When another was asked for.
+    """
+    from dataclasses import replace
+
+    method = choice.settings.method
+    if method in FORMULAS:
+        return replace(choice, instead="")
+    if choice.reason:
+        return MethodChoice(replace(choice.settings, method=next(iter(FORMULAS))), "derivatives")
+    raise UsageError(WITHOUT.format(known=", ".join(FORMULAS), method=method))
+
+
+def lay_tape(system: System, rows: int) -> None:
+    """Have the run that is ready keep its states."""
+    tape, audit = system.tape, system.audit
+    tape.rows, tape.kept, tape.full = 0, 0, False
+    tape.width = TAPE_HEAD + system.W.size + 9 * len(system.model.bodies) + tape.kept
+    tape.data = np.zeros(rows * tape.width)
+    for name in ("previous", "previous_before"):
+        setattr(audit, name, np.zeros(system.W.size))
+    audit.on = True
+    system.run(AUDIT)
+
+
+def followed(system: System, method: str, found: Iterable[Direction]) -> np.ndarray:
+    """Derivatives of the record (np, nt, nw + n_out) along the tape.
+
+    Raises
+    ------
+    UsageError
+        When a step has none.
+    """
+    collected = Collected(system, found, tangent_groups(system))
+    count, w = collected.record.count, 2 * system.n + system.ns
+    size = system.nw + system.sizes.n_out
+    made = Forward.zeros()
+    made.width, made.room = w, room(w)
+    history = np.zeros((count, made.room))
+    history[:, :w] = collected.start
+    arrays = {
+        "history": history.ravel(), "y": np.zeros(4 * w + 1), "a": np.zeros(system.n + 1),
+        "start": np.zeros(count * ROWS * w + 1), "state": np.zeros((ROWS + 2) * w),
+        "z": np.zeros(system.m + system.nv + 1), "sd": np.zeros(system.ns + 1),
+        "guard": np.zeros(system.W.size), "rate": np.zeros(w), "jump": np.zeros(w),
+        "record": np.zeros(count * len(system.times) * size + 1),
+    }  # fmt: skip
+    for name, value in arrays.items():
+        setattr(made, name, value)
+    problem, plan = system.records()
+    run = _native(FORMULAS[method])
+    code = run(problem.address, plan.address, collected.record.address, made.address)
+    if code != DONE:
+        raise UsageError("derivatives are not determined where the equations are singular")
+    return made.record[:-1].reshape(count, len(system.times), size)
+
+
+def _native(entry: str) -> Any:
+    kind = ctypes.CFUNCTYPE(ctypes.c_int64, *[ctypes.c_void_p] * 4)
+    return kind(address_of(entry))
