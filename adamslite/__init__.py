@@ -50,6 +50,7 @@ _HOME = {
     "read": "reading.read",
     "read_commands": "reading.read",
     "reads": "deck.python_routine",
+    "sensitivities": "api.sensitivities",
     "simulate": "api.runs",
     "sweep": "api.sweeps",
     "verify": "api.tools",

@@ -66,6 +66,7 @@ scene
 command_files
 result_files
 sweeps
+sensitivity
 verification
 fitting
 plots

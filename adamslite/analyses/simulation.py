@@ -95,7 +95,7 @@ def simulate(
     )  # fmt: skip
     end, steps = options.pop("end", None), options.pop("steps", None)
     flags = {{"integrator": "method"}.get(name, name): each for name, each in options.items()}
-    plan = _plan(deck_of(scene), commands, end, steps)
+    plan = plan_of(deck_of(scene), commands, end, steps)
     files = files or SavedFiles()
     without = left_off(no_reduction) | kept_apart(plan, audit)
     session = Session(prepared_for(scene, commands), progress, flags, without, audit, files)
@@ -127,7 +127,7 @@ def _limited(results: Results, wanted: tuple[str, ...]) -> Results:
     return limited(results, wanted)
 
 
-def _explained(session: Session) -> str:
+def explained(session: Session) -> str:
     """Why a run has ended early."""
     from adamslite.analyses.failure_report import explain
 
@@ -190,7 +190,7 @@ def linearize(
     session.execute(plan)
     system = session.system
     if not session.outcome.is_requested:
-        raise RunFailed(_explained(session))
+        raise RunFailed(explained(session))
     made = session.linearizations
     return made[-1].model if made and rm is None else linear(system, relative_to=marker)
 
@@ -231,7 +231,7 @@ def _dynamics(
     return Simulate(kind="DYNAMICS", end=end, duration=duration, steps=steps, dtout=dtout)
 
 
-def _plan(
+def plan_of(
     deck: Deck, commands: tuple[Command, ...], end: float | None, steps: int | None
 ) -> list[Command]:
     """What to carry out: settings of the deck, then the commands, or the deck's own SIMULATE
@@ -282,7 +282,7 @@ def _results(session: Session, cpu: tuple[float, float], notes: bool) -> Results
     meta = {**_meta(session), **_without_value(time, names, values)} if notes else {}
     return Results(
         time=time, names=names, values=values, meta=meta, outcome=session.outcome,
-        message="" if done else _explained(session), summary=summary,
+        message="" if done else explained(session), summary=summary,
         linearizations=tuple(session.linearizations), balances=tuple(session.balances),
     )  # fmt: skip
 

@@ -12,8 +12,8 @@ from adamslite.integrators.contract import ACCELERATION, Problem
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import PART
 from adamslite.native.translate import Reals, native
-from adamslite.sensitivities.contract import Forward, Tangents
-from adamslite.sensitivities.tangents import put_direction, put_signals, tangent
+from adamslite.sensitivity.contract import Forward, Tangents
+from adamslite.sensitivity.tangents import clear, put_direction, put_signals, tangent
 
 
 @native
@@ -53,6 +53,14 @@ def spun(P: Problem, y: Reals, u: Reals, sign: float, target: Reals) -> None:
 
 
 @native
+def forget_rates(P: Problem, S: Forward) -> None:
+    """No accelerations, multipliers, variables or rates of states."""
+    clear(S.a, P.sizes.n)
+    clear(S.z, P.sizes.m + P.sizes.nv)
+    clear(S.sd, P.sizes.ns)
+
+
+@native
 def sensitive_accelerations(
     P: Problem, L: Plan, D: Tangents, S: Forward, number: int, y: Reals
 ) -> None:
@@ -60,12 +68,7 @@ def sensitive_accelerations(
     direction into ``dW``; the matrix of accelerations is factored.
     """
     n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
-    for i in range(n):
-        S.a[i] = 0.0
-    for k in range(first):
-        S.z[k] = 0.0
-    for k in range(ns):
-        S.sd[k] = 0.0
+    forget_rates(P, S)
     put_direction(P, D, y, S.a, S.z, S.sd, 0.0)
     tangent(P, D, number, ACCELERATION, P.F)
     for k in range(n + first + ns, P.sizes.nz):

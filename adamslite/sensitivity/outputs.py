@@ -5,15 +5,13 @@ from __future__ import annotations
 from adamslite.integrators.contract import OUTPUTS, Problem
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.native.translate import Reals, copy, native
-from adamslite.sensitivities.contract import Forward, Tangents
-from adamslite.sensitivities.rates import sensitive_accelerations
-from adamslite.sensitivities.tangents import by_number, directed
+from adamslite.sensitivity.contract import Forward, Tangents
+from adamslite.sensitivity.rates import sensitive_accelerations
+from adamslite.sensitivity.tangents import by_number, directed
 
 
 @native
-def write_outputs(
-    P: Problem, L: Plan, D: Tangents, S: Forward, number: int, y: Reals
-) -> None:
+def write_outputs(P: Problem, L: Plan, D: Tangents, S: Forward, number: int, y: Reals) -> None:
     """The derivative of the next row of the record by a number, from the sensitivities ``y`` of
     the workspace's state; the matrix of accelerations is factored.
     """

@@ -19,11 +19,13 @@ from __future__ import annotations
 from adamslite.integrators.accelerations import accelerations, solve_accelerations
 from adamslite.integrators.contract import POSITION_ROWS, Problem
 from adamslite.integrators.linalg.plan import Plan
+from adamslite.integrators.motion_equations import PART
 from adamslite.integrators.projection import RATES
+from adamslite.kernels.code.workspace import ACCELERATION, ALPHA
 from adamslite.native.translate import Reals, call_address, copy, native, rare, seldom
-from adamslite.sensitivities.contract import Forward, Tangents
-from adamslite.sensitivities.rates import sensitive_accelerations, spun, take_state
-from adamslite.sensitivities.tangents import put_direction, put_signals, tangent
+from adamslite.sensitivity.contract import Forward, Tangents
+from adamslite.sensitivity.rates import forget_rates, sensitive_accelerations, take_state
+from adamslite.sensitivity.tangents import clear, put_direction, put_signals, tangent
 
 # A guard that changes by less than this of what it changes by with a number has no time.
 GRAZING = 1e-9
@@ -39,19 +41,14 @@ def project_start(P: Problem, L: Plan, D: Tangents, S: Forward, y: Reals, number
     if P.sizes.m == 0:
         return
     for level in range(2):
-        for i in range(n):
-            S.a[i] = 0.0
-        for k in range(P.sizes.m + P.sizes.nv):
-            S.z[k] = 0.0
+        forget_rates(P, S)
         put_direction(P, D, y, S.a, S.z, S.sd, 0.0)
         tangent(P, D, number, POSITION_ROWS if level == 0 else RATES, P.F)
-        for i in range(n):
-            P.F[i] = 0.0
+        clear(P.F, n)
         if P.sizes.si2 and level == 1:
             for k in range(holonomic):
                 P.F[n + k], P.F[mu + k] = P.F[mu + k], 0.0
-        for k in range(n + P.sizes.m, P.sizes.nz):
-            P.F[k] = 0.0
+        clear(P.F[n + P.sizes.m :], P.sizes.nz - n - P.sizes.m)
         for k in range(P.dead.size):
             P.F[P.dead[k]] = 0.0
         solve_accelerations(P, L)
@@ -71,27 +68,9 @@ def jump(P: Problem, L: Plan, D: Tangents, S: Forward, before: Reals, behind: Re
     take_state(P)
     if not accelerations(P, L, before[0], P.q, P.u, P.a, P.z, P.rd):
         return
-    for i in range(n):
-        S.jump[i] = P.a[i]
-    for k in range(ns):
-        S.jump[n + k] = P.rd[k]
-    for k in range(P.sizes.nb):
-        i, o = P.body[k].first, P.body[k].at
-        for c in range(3):
-            S.jump[i + c] -= behind[o + 6 + c]
-            if P.body[k].width > 3:
-                S.jump[i + 3 + c] -= behind[o + 12 + c]
-    for k in range(ns):
-        S.jump[n + k] -= behind[P.scalar[P.sizes.m + P.sizes.nv + k] + 1]
-    spun(P, S.rate, P.u, 0.0, S.rate)
-    for i in range(n):
-        S.rate[n + i] = P.a[i]
-        S.a[i] = 0.0
-    for k in range(ns):
-        S.rate[2 * n + k] = P.rd[k]
-        S.sd[k] = 0.0
-    for k in range(P.sizes.m + P.sizes.nv):
-        S.z[k] = 0.0
+    note_jump(P, S, behind)
+    note_rates(P, S)
+    forget_rates(P, S)
     put_direction(P, D, S.rate, S.a, S.z, S.sd, 1.0)
     put_signals(P, D, -1)
     guards(P, D, S, -1)
@@ -110,6 +89,29 @@ def jump(P: Problem, L: Plan, D: Tangents, S: Forward, before: Reals, behind: Re
 
 
 @native
+def note_jump(P: Problem, S: Forward, behind: Reals) -> None:
+    """How much larger accelerations and rates of states are in place than behind the event."""
+    n, ns = P.sizes.n, P.sizes.ns
+    for b in range(P.sizes.nb):
+        i, o = P.body[b].first, P.body[b].at
+        for k in range(3):
+            S.jump[i + k] = P.a[i + k] - behind[o + ACCELERATION + k]
+            if P.body[b].width == PART:
+                S.jump[i + 3 + k] = P.a[i + 3 + k] - behind[o + ALPHA + k]
+    for k in range(ns):
+        S.jump[n + k] = P.rd[k] - behind[P.scalar[P.sizes.m + P.sizes.nv + k] + 1]
+
+
+@native
+def note_rates(P: Problem, S: Forward) -> None:
+    """The rates of the state in place."""
+    for i in range(P.sizes.n):
+        S.rate[i], S.rate[P.sizes.n + i] = P.u[i], P.a[i]
+    for k in range(P.sizes.ns):
+        S.rate[2 * P.sizes.n + k] = P.rd[k]
+
+
+@native
 def changed_guard(P: Problem, before: Reals, behind: Reals) -> int:
     """The first guard whose branch has changed, -1 for none."""
     for k in range(P.sizes.clocks + P.sizes.watched):
@@ -123,8 +125,7 @@ def changed_guard(P: Problem, before: Reals, behind: Reals) -> int:
 def guards(P: Problem, D: Tangents, S: Forward, number: int) -> None:
     """Derivatives of all guards in the direction in ``dW`` and by a number (-1: none)."""
     g = P.group
-    for k in range(P.W.size):
-        S.guard[k] = 0.0
+    clear(S.guard, P.W.size)
     for k in range(P.sizes.ng):
         for which in range(2):
             address = D.group[k].clock if which == 0 else D.group[k].watch

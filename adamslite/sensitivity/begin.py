@@ -13,8 +13,9 @@ from adamslite.integrators.contract import Problem
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import vector_rates
 from adamslite.native.translate import Reals, native, seldom
-from adamslite.sensitivities.contract import Forward, Tangents
-from adamslite.sensitivities.rates import rates_of, sensitive_accelerations, take_state
+from adamslite.sensitivity.contract import Forward, Tangents
+from adamslite.sensitivity.rates import rates_of, sensitive_accelerations, take_state
+from adamslite.sensitivity.tangents import clear
 
 # Rows of derivatives: first, second, third, and rates ahead.
 RATE, SECOND, THIRD, NEAR, FAR, ROWS = range(6)
@@ -26,36 +27,30 @@ AHEAD = 0.1
 @seldom
 def begin_history(P: Problem, L: Plan, D: Tangents, S: Forward, h: float, order: int) -> bool:
     """A history of the sensitivities, for a step of size ``h`` from the workspace's state."""
-    n, w, first, t = P.sizes.n, S.width, P.sizes.m + P.sizes.nv, P.W[0]
-    origin, d = S.state[ROWS * w :], AHEAD * h
+    w, t = S.width, P.W[0]
+    d, origin = AHEAD * h, S.state[ROWS * w :]
     take_state(P)
-    for i in range(n):
-        origin[i], origin[n + i] = P.q[i], P.u[i]
+    for i in range(P.sizes.n):
+        origin[i], origin[P.sizes.n + i] = P.q[i], P.u[i]
     for k in range(P.sizes.ns):
-        origin[2 * n + k] = P.z[first + k]
-    for i in range(S.state.size - 2 * w):
-        S.state[i] = 0.0
-    for i in range(S.start.size):
-        S.start[i] = 0.0
-    if not rates_ahead(P, L, D, S, t, 0.0, RATE):
-        return False
+        origin[2 * P.sizes.n + k] = P.z[P.sizes.m + P.sizes.nv + k]
+    clear(S.state, ROWS * w)
+    clear(S.start, S.start.size)
+    known = rates_ahead(P, L, D, S, t, 0.0, RATE)
     if order > 1:
-        if not rates_ahead(P, L, D, S, t, d, NEAR):
-            return False
+        known = known and rates_ahead(P, L, D, S, t, d, NEAR)
         curve(S.state, w, d)
         for number in range(D.count):
             curve(S.start[number * ROWS * w :], w, d)
-        if not rates_ahead(P, L, D, S, t, d, NEAR):
-            return False
-        if not rates_ahead(P, L, D, S, t, 2.0 * d, FAR):
-            return False
+        known = known and rates_ahead(P, L, D, S, t, d, NEAR)
+        known = known and rates_ahead(P, L, D, S, t, 2.0 * d, FAR)
     for number in range(D.count):
         H, rows = S.history[number * S.room :], S.start[number * ROWS * w :]
         if order > 1:
             higher(rows, w, d)
         differences_of(H, rows, w, h, S.room)
     S.h, S.order = h, order
-    return True
+    return known
 
 
 @native

@@ -41,12 +41,12 @@ from adamslite.integrators.tape_record import (
 )
 from adamslite.kernels.code.workspace import OMEGA
 from adamslite.native.translate import Reals, copy, native
-from adamslite.sensitivities.begin import begin_history
-from adamslite.sensitivities.contract import Forward, Tangents
-from adamslite.sensitivities.outputs import write_outputs
-from adamslite.sensitivities.rates import spun, take_state
-from adamslite.sensitivities.start import jump, project_start
-from adamslite.sensitivities.tangents import put_direction, tangent
+from adamslite.sensitivity.begin import begin_history
+from adamslite.sensitivity.contract import Forward, Tangents
+from adamslite.sensitivity.outputs import write_outputs
+from adamslite.sensitivity.rates import spun, take_state
+from adamslite.sensitivity.start import jump, project_start
+from adamslite.sensitivity.tangents import clear, put_direction, tangent
 
 
 @native
@@ -110,43 +110,55 @@ def at_start(P: Problem, L: Plan, D: Tangents, S: Forward) -> bool:
 @native
 def step(P: Problem, L: Plan, D: Tangents, S: Forward, here: Reals) -> bool:
     """Sensitivities at the end of a step, whose state is in the workspace."""
-    h, order, n, w = here[TAPE_STEP], int(here[TAPE_ORDER]), P.sizes.n, S.width
-    cu, first = gamma(order) / h, P.sizes.m + P.sizes.nv
+    h, order, w = here[TAPE_STEP], int(here[TAPE_ORDER]), S.width
+    cu = gamma(order) / h
     if not matrix(P, L, cu):
         return False
+    yp, psi, y = S.y[0:], S.y[w:], S.y[2 * w :]
     for number in range(D.count):
         H = S.history[number * S.room :]
         if h != S.h:
             change_step(H, w, order, h / S.h)
-        yp, psi, y, v = S.y[0:], S.y[w:], S.y[2 * w :], S.y[3 * w :]
         extrapolate(H, w, order, yp, psi)
         for i in range(w):
-            y[i] = H[i] + yp[i]
-        for i in range(n):
-            v[i] = psi[i] * cu
-        spun(P, y, v, -1.0, y[n:])
-        for i in range(n):
-            S.a[i] = (psi[n + i] + y[n + i] - H[n + i] - yp[n + i]) * cu
-        for k in range(first):
-            S.z[k] = 0.0
-        for k in range(P.sizes.ns):
-            S.sd[k] = psi[2 * n + k] * cu
-        put_direction(P, D, y, S.a, S.z, S.sd, 0.0)
-        tangent(P, D, number, equations_kept(P), P.F)
-        solve(L, P.LV, P.pivots, P.F, P.x, P.work)
-        for i in range(n):
-            y[i] -= P.F[i]
-            v[i] -= P.F[i] * cu
-        for k in range(P.sizes.ns):
-            y[2 * n + k] -= P.F[n + first + k]
-        spun(P, y, v, -1.0, y[n:])
-        if is_stabilised(P):
-            add_multipliers(P, S, y[n:], here)
+            yp[i] += H[i]
+            y[i] = yp[i]
+        solved(P, L, D, S, number, cu, here)
         for i in range(w):
-            psi[i] = y[i] - H[i] - yp[i]
+            psi[i] = y[i] - yp[i]
         extend_history(H, psi, w, order)
     S.h, S.order = h, order
     return True
+
+
+@native
+def solved(
+    P: Problem, L: Plan, D: Tangents, S: Forward, number: int, cu: float, here: Reals
+) -> None:
+    """Sensitivities from the prediction: the first three rows of ``S.y`` hold it, psi, and where
+    they are to stand.
+    """
+    n, w, first = P.sizes.n, S.width, P.sizes.m + P.sizes.nv
+    yp, psi, y, v = S.y[0:], S.y[w:], S.y[2 * w :], S.y[3 * w :]
+    for i in range(n):
+        v[i] = psi[i] * cu
+    spun(P, y, v, -1.0, y[n:])
+    for i in range(n):
+        S.a[i] = (psi[n + i] + y[n + i] - yp[n + i]) * cu
+    clear(S.z, first)
+    for k in range(P.sizes.ns):
+        S.sd[k] = psi[2 * n + k] * cu
+    put_direction(P, D, y, S.a, S.z, S.sd, 0.0)
+    tangent(P, D, number, equations_kept(P), P.F)
+    solve(L, P.LV, P.pivots, P.F, P.x, P.work)
+    for i in range(n):
+        y[i] -= P.F[i]
+        v[i] -= P.F[i] * cu
+    for k in range(P.sizes.ns):
+        y[2 * n + k] -= P.F[n + first + k]
+    spun(P, y, v, -1.0, y[n:])
+    if is_stabilised(P):
+        add_multipliers(P, S, y[n:], here)
 
 
 @native

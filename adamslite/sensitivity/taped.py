@@ -12,21 +12,21 @@ from adamslite.analyses.begun_again import Beginning
 from adamslite.analyses.dynamic import integrate, make_ready
 from adamslite.analyses.method_choice import MethodChoice
 from adamslite.analyses.session import Session
-from adamslite.equations.engine import address_of, ints
+from adamslite.equations.engine import address_of
 from adamslite.errors import UsageError
 from adamslite.integrators.bdf.history import room
 from adamslite.integrators.contract import AUDIT, DONE
 from adamslite.integrators.tape_record import TAPE_HEAD
 from adamslite.results.outcomes import Outcome
-from adamslite.sensitivities.begin import ROWS
-from adamslite.sensitivities.contract import Forward
-from adamslite.sensitivities.directions import Collected, Direction, Snapshot, tangent_groups
+from adamslite.sensitivity.begin import ROWS
+from adamslite.sensitivity.contract import Forward
+from adamslite.sensitivity.directions import Collected, Direction, Snapshot, tangent_groups
 
 if TYPE_CHECKING:
     from adamslite.equations.system import System
 
 #: By method: the native function that follows its tape.
-FORMULAS = {"GSTIFF": "adamslite.sensitivities.differences.by_differences"}
+FORMULAS = {"GSTIFF": "adamslite.sensitivity.differences.by_differences"}
 WITHOUT = "derivatives are worked out along the steps of {known}; {method} is none of them"
 SEVERAL = (
     "derivatives are those of one dynamic analysis: here a second one follows (several SIMULATE, "

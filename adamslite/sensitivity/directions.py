@@ -20,14 +20,14 @@ from adamslite.equations.engine import ints
 from adamslite.integrators import contract
 from adamslite.model.model import PART
 from adamslite.native.translate import Rows
-from adamslite.sensitivities.contract import Piece, TangentGroup, Tangents
+from adamslite.sensitivity.contract import Piece, TangentGroup, Tangents
 
 if TYPE_CHECKING:
     from adamslite.equations.system import System
 
 # Distance of the values from the present one, as a share of it, or as it is where that is zero.
 SHARE = 1e-3
-STENCIL = {-2: 1.0 / 12.0, -1: -8.0 / 12.0, 1: 8.0 / 12.0, 2: -1.0 / 12.0}
+STENCIL = (-2, -1, 1, 2)
 
 
 @dataclass
@@ -84,18 +84,18 @@ class Direction:
     start: np.ndarray
     pieces: list[tuple[int, int, int, np.ndarray]] = field(default_factory=list)
 
-    @property
-    def matters(self) -> bool:
-        """Whether anything hangs on the number."""
+    def moves(self, system: System) -> bool:
+        """Whether an equation hangs on the number, or the start; else what is written, at most."""
         arrays = (self.mass, self.inertia, self.gravity, self.start)
-        return bool(self.pieces) or any(each.any() for each in arrays)
+        faces = {system.kernels.groups[k].face for k, *_ in self.pieces}
+        return bool(faces - {"output"}) or any(each.any() for each in arrays)
 
 
 def direction(system: System, base: Snapshot, around: dict[int, Snapshot], h: float) -> Direction:
     """The derivatives by a number, from snapshots at multiples of ``h`` beside its value."""
 
     def slope(name: str) -> np.ndarray:
-        return sum(w * getattr(around[k], name) for k, w in STENCIL.items()) / h  # type: ignore
+        return _slope({k: getattr(each, name) for k, each in around.items()}, h)
 
     turned = slope("attitudes") @ base.attitudes.transpose(0, 2, 1)
     turns = 0.5 * np.stack(
@@ -113,6 +113,11 @@ def direction(system: System, base: Snapshot, around: dict[int, Snapshot], h: fl
     return found
 
 
+def _slope(around: dict[int, np.ndarray], h: float) -> np.ndarray:
+    """The derivative; what does not change has none."""
+    return (8.0 * (around[1] - around[-1]) - (around[2] - around[-2])) / (12.0 * h)
+
+
 def _pieces(
     system: System, base: Snapshot, around: dict[int, Snapshot], h: float
 ) -> Iterator[tuple[int, int, int, np.ndarray]]:
@@ -121,7 +126,7 @@ def _pieces(
         if all(each.tobytes() == base.reals[k].tobytes() for each in given):
             continue
         with np.errstate(invalid="ignore"):
-            rates = sum(w * around[n].reals[k] for n, w in STENCIL.items()) / h
+            rates = _slope({n: each.reals[k] for n, each in around.items()}, h)
         rows = np.where(np.isfinite(rates), rates, 0.0)[:-1].reshape(len(group.instances), -1)
         params = len(group.instances.columns.params)
         rows[:, params : params + group.meta["angles"] + group.meta["limits"]] = 0.0  # memories

@@ -2,8 +2,8 @@
 
     dF = F_q (dx, theta) + F_u du + F_a da + F_z dz + F_s' ds' + F_p
 
-Kernels give those of loads, constraints and equations (:mod:`adamslite.kernels.code.tangent_writer`);
-inertia forces are M (a - g) and J al + w x J w with
+Kernels give those of loads, constraints and equations
+(:mod:`adamslite.kernels.code.tangent_writer`); inertia forces are M (a - g) and J al + w x J w with
 
     dJ = [theta] J - J [theta] + R dI R^T
 """
@@ -14,7 +14,14 @@ from adamslite.integrators.contract import SIGNALS, STATE_ORIGIN, Problem
 from adamslite.integrators.motion_equations import PART, rotated_inertia
 from adamslite.kernels.code.workspace import HEAD
 from adamslite.native.translate import Reals, call_address, native
-from adamslite.sensitivities.contract import Tangents
+from adamslite.sensitivity.contract import Tangents
+
+
+@native
+def clear(x: Reals, count: int) -> None:
+    """The first ``count`` numbers become zero."""
+    for i in range(count):
+        x[i] = 0.0
 
 
 @native
@@ -25,8 +32,7 @@ def put_direction(
     velocities, states), accelerations, multipliers and variables, rates of states, the time.
     """
     n, ns, first, W, d = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv, P.W, D.dW
-    for k in range(P.W.size):
-        d[k] = 0.0
+    clear(d, P.W.size)
     d[0] = time
     for b in range(P.sizes.nb):
         i, o = P.body[b].first, P.body[b].at
@@ -76,8 +82,7 @@ def tangent(P: Problem, D: Tangents, number: int, phases: int, F: Reals) -> None
     """F = the derivative of the equations of ``phases`` in the direction in ``dW`` and by a number
     (-1: none) at the workspace's state.
     """
-    for k in range(P.sizes.nz):
-        F[k] = 0.0
+    clear(F, P.sizes.nz)
     put_signals(P, D, number)
     inertia_tangent(P, D, number, F)
     directed(P, D, phases, F)
@@ -133,19 +138,7 @@ def turning_tangent(P: Problem, D: Tangents, number: int, b: int, F: Reals) -> N
     """The same of J al + w x J w of a part; theta is read from dR R^T."""
     W, d, i, o, work = P.W, D.dW, P.body[b].first, P.body[b].at, P.work
     rotated_inertia(P, b, o, work)
-    for r in range(3):
-        for c in range(3):
-            total = 0.0
-            for k in range(3):
-                total += d[o + 15 + 3 * r + k] * W[o + 15 + 3 * c + k]
-            work[9 + 3 * r + c] = total
-    for r in range(3):
-        for c in range(3):
-            total = 0.0
-            for k in range(3):
-                total += work[9 + 3 * r + k] * work[3 * k + c]
-                total -= work[3 * r + k] * work[9 + 3 * k + c]
-            work[18 + 3 * r + c] = total
+    turned_inertia(W[o + 15 :], d[o + 15 :], work)
     if number >= 0:
         inertia_by_number(P, D, number, b)
     for k in range(3):
@@ -159,6 +152,24 @@ def turning_tangent(P: Problem, D: Tangents, number: int, b: int, F: Reals) -> N
         p, q = (k + 1) % 3, (k + 2) % 3
         F[i + 3 + k] += d[o + 9 + p] * work[27 + q] - d[o + 9 + q] * work[27 + p]
         F[i + 3 + k] += W[o + 9 + p] * work[30 + q] - W[o + 9 + q] * work[30 + p]
+
+
+@native
+def turned_inertia(R: Reals, dR: Reals, work: Reals) -> None:
+    """dJ = [theta] J - J [theta] behind J and [theta] = dR R^T."""
+    for r in range(3):
+        for c in range(3):
+            total = 0.0
+            for k in range(3):
+                total += dR[3 * r + k] * R[3 * c + k]
+            work[9 + 3 * r + c] = total
+    for r in range(3):
+        for c in range(3):
+            total = 0.0
+            for k in range(3):
+                total += work[9 + 3 * r + k] * work[3 * k + c]
+                total -= work[3 * r + k] * work[9 + 3 * k + c]
+            work[18 + 3 * r + c] = total
 
 
 @native

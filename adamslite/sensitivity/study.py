@@ -1,0 +1,212 @@
+"""`sensitivities`: derivatives of a run by numbers of its deck."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from adamslite.analyses.run_options import checked
+from adamslite.analyses.simulation import explained, plan_of
+from adamslite.analyses.subject import deck_of, kernels_of, prepared_for
+from adamslite.equations.result_columns import columns
+from adamslite.errors import RunFailed, UsageError
+from adamslite.model.model import PART
+from adamslite.model.reduction import MERGED
+from adamslite.results.outcomes import Outcome
+from adamslite.results.results import Results
+from adamslite.sensitivity.directions import SHARE, STENCIL, Direction, Snapshot, direction
+from adamslite.sensitivity.measures import asked, slope
+from adamslite.sensitivity.record import Sensitivities
+from adamslite.sensitivity.taped import Probe, Ready, Taped, followed
+from adamslite.variation.decks import variable_of
+from adamslite.variation.kernels import of_deck
+
+if TYPE_CHECKING:
+    from adamslite.analyses.session import Session
+    from adamslite.analyses.subject import Subject
+    from adamslite.deck.redefinition import Command
+    from adamslite.equations.system import System
+    from adamslite.kernels.groups import Kernels
+    from adamslite.progress import Progress
+    from adamslite.reading.numbers import Named
+
+UNUSED = "no equation hangs on it: nothing moves otherwise"
+FORM = (
+    "{name} is part of the form of an expression (an exponent, a constant of a call): there is no "
+    "derivative by it"
+)
+ZERO = "{name} is 0, and what is 0 is left out of the equations: give it a small value"
+SENSED = "A SENSOR ended the run: derivatives where the end itself moves are not worked out"
+# Turns of a part by which its angles are differentiated.
+TURN = 1e-5
+# Numbers of derivatives that are held at a time.
+MOST_HELD = 40_000_000
+
+
+class Study:
+    """A scene whose derivatives are asked for.
+
+    ``plan``: what is carried out; ``flags``: of the session.
+    """
+
+    def __init__(
+        self, scene: Subject, commands: Iterable[Command], options: dict[str, Any]
+    ) -> None:
+        commands = tuple(commands)
+        given = checked(options)
+        end, steps = given.pop("end", None), given.pop("steps", None)
+        self.flags = {{"integrator": "method"}.get(k, k): each for k, each in given.items()}
+        self.plan = plan_of(deck_of(scene), commands, end, steps)
+        self.without = frozenset({MERGED, "plane"})
+        subject = prepared_for(scene, commands)
+        self.deck = deck_of(subject)
+        if self.deck.delays:
+            raise UsageError("DELAY: derivatives of a past that is looked up are not worked out")
+        self.kernels = kernels_of(subject, None, self.without, False)
+
+    def named(self, by: Iterable[str]) -> list[Named]:
+        """The numbers of these names.
+
+        Raises
+        ------
+        UsageError
+            When there is none, with what may have been meant.
+        """
+        numbers = variable_of(self.deck.base or self.deck).numbers
+        listed = [by] if isinstance(by, str) else [*by]
+        found = {each.name: each for each in map(numbers.find, listed)}
+        return [
+            each._replace(value=self.deck.values.get(name, each.value))
+            for name, each in found.items()
+        ]
+
+    def session(self, kind: type[Session], kernels: Kernels) -> Any:
+        return kind(kernels, None, dict(self.flags), self.without)
+
+    def snapshot(self, kernels: Kernels) -> tuple[System, Snapshot]:
+        """The system where the dynamic analysis begins, and its arrays.
+
+        Raises
+        ------
+        RunFailed
+            When there is none, or it is not reached.
+        """
+        session = self.session(Probe, kernels)
+        try:
+            session.execute(self.plan)
+        except Ready as ready:
+            return session.system, ready.snapshot
+        if session.outcome is not Outcome.DONE:
+            raise RunFailed(explained(session))
+        raise UsageError("derivatives are those of a dynamic analysis, and there is none")
+
+    def directions(self, named: list[Named]) -> tuple[System, list[Direction]]:
+        """Derivatives of the arrays by each number."""
+        system, base = self.snapshot(self.kernels)
+        return system, [self._direction(system, base, each) for each in named]
+
+    def _direction(self, system: System, base: Snapshot, number: Named) -> Direction:
+        h = SHARE * (abs(number.value) or self._scale(number))
+        around = {}
+        for k in STENCIL:
+            deck = self.deck.with_values({number.name: number.value + k * h})
+            around[k] = self.snapshot(of_deck(self.kernels, deck))[1]
+            if around[k].names != base.names:
+                text = FORM if number.value else ZERO
+                raise UsageError(text.format(name=number.name))
+        return direction(system, base, around, h)
+
+    def _scale(self, number: Named) -> float:
+        """What a zero is small against: the numbers beside it."""
+        label = number.name.partition("[")[0]
+        numbers = variable_of(self.deck.base or self.deck).numbers.named.values()
+        beside = [abs(each.value) for each in numbers if each.name.partition("[")[0] == label]
+        return max(beside, default=0.0) or 1.0
+
+
+def sensitivities(
+    scene: Subject,
+    by: Iterable[str],
+    of: Iterable[str] = (),
+    commands: Iterable[Command] = (),
+    progress: Progress | None = None,
+    **options: Any,
+) -> Sensitivities:
+    """Derivatives of a deck, a model or kernels; see :func:`adamslite.sensitivities`."""
+    study = Study(scene, commands, options)
+    named = study.named(by)
+    if not named:
+        raise UsageError("derivatives by what? --by NAME; `adamslite names DECK` lists numbers")
+    system, found = study.directions(named)
+    session = study.session(Taped, study.kernels)
+    made: dict[str, Any] = {}
+
+    def follow(system: System, method: str) -> np.ndarray:
+        if system.triggered:
+            raise UsageError(SENSED)
+        size = system.nw + system.sizes.n_out
+        record = system.record[: len(system.times) * size].reshape(len(system.times), size)
+        names, values = columns(system, record)
+        measures, kept = asked(of, names) if of else ([], [*range(len(names))])
+        lot = max(1, MOST_HELD // max(record.size, 1))
+        curves = []
+        for at in range(0, len(found), lot):
+            slopes = followed(system, method, found[at : at + lot])
+            curves += [_columns(system, record, each)[:, kept] for each in slopes]
+        made.update(names=names, values=values, kept=kept, measures=measures, curves=curves)
+        made["time"] = system.times.copy()
+        return np.zeros(0)
+
+    session.follow = follow
+    session.execute(study.plan)
+    if session.outcome is not Outcome.DONE:
+        raise RunFailed(explained(session))
+    made["still"] = [n.name for n, each in zip(named, found, strict=True) if not each.moves(system)]
+    return _gathered(study, named, session, made)
+
+
+def _gathered(
+    study: Study, named: list[Named], session: Any, made: dict[str, Any]
+) -> Sensitivities:
+    kept, names, time = made["kept"], made["names"], made["time"]
+    chosen = tuple(names[k] for k in kept)
+    results = Results(
+        time=time, names=chosen, values=np.ascontiguousarray(made["values"][:, kept]),
+        meta={"deck": study.deck.title}, outcome=session.outcome, message="", summary={},
+    )  # fmt: skip
+    curves, measures = np.array(made["curves"]), made["measures"]
+    at = {name: k for k, name in enumerate(chosen)}
+    gradient = np.array([
+        [slope(m, time, results[m.channel], curve[:, at[m.channel]]) for curve in curves]
+        for m in measures
+    ]).reshape(len(measures), len(named))  # fmt: skip
+    notes = dict.fromkeys(made["still"], UNUSED)
+    return Sensitivities(
+        tuple(n.name for n in named), np.array([n.value for n in named]), results, curves,
+        tuple(map(str, measures)), np.array([m.of(time, results[m.channel]) for m in measures]),
+        gradient, notes,
+    )  # fmt: skip
+
+
+def _columns(system: System, record: np.ndarray, slopes: np.ndarray) -> np.ndarray:
+    """Derivatives of the columns (nt, nc) from those of the record: all but angles are linear."""
+    names, found = columns(system, slopes)
+    found = found.copy()
+    turned, largest = np.zeros_like(slopes), np.zeros(len(slopes))
+    for b, body in enumerate(system.model.bodies):
+        if body.width == PART:
+            at = slice((o := system.w_at["BODY", b] + 15), o + 9)
+            turned[:, at] = slopes[:, at]
+            largest = np.maximum(largest, np.abs(slopes[:, at]).max(axis=1))
+    angles = [k for k, name in enumerate(names) if name.endswith((".psi", ".theta", ".phi"))
+              and name.startswith("PART/")]  # fmt: skip
+    if not angles or not largest.any():
+        found[:, angles] = 0.0
+        return found
+    step = (TURN / np.where(largest > 0.0, largest, 1.0))[:, None]
+    ends = [columns(system, record + sign * step * turned)[1][:, angles] for sign in (1.0, -1.0)]
+    gap = ends[0] - ends[1]
+    found[:, angles] = (gap - 2.0 * np.pi * np.round(gap / (2.0 * np.pi))) / (2.0 * step)
+    return found
