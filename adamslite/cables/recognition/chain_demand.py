@@ -2,44 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import inf, pi, sqrt
 from statistics import mean
-from typing import TypeGuard
 
 import numpy as np
 
 from adamslite.cables.description.payout_law import Unknown
 from adamslite.cables.model.demand import SMALL_SLOPE, Demand
-from adamslite.cables.model.estimate import Travel, from_ways
 from adamslite.cables.model.network import Bar, Network
 from adamslite.cables.model.response import Machine, String, instants, is_usable
-from adamslite.cables.recognition.chain_finder import Chain, Link, damper, free_length, law_of
+from adamslite.cables.recognition.chain_finder import Chain, damper
 from adamslite.cables.recognition.chain_loads import acting
+from adamslite.cables.recognition.chain_payout import form_of, travel_of
+from adamslite.cables.recognition.chain_shape import ASIDE, ChainShape
 from adamslite.cables.recognition.posture import Body, Posture
-from adamslite.cables.vectors import ZERO, Vector, add, dot, norm, part_across, unit
+from adamslite.cables.vectors import ZERO, add, dot, norm, part_across
 from adamslite.deck.deck import Deck
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.elements.diff import Diff
 from adamslite.elements.part import Part
 from adamslite.elements.request import COMPONENTS, Request
 from adamslite.elements.vforce import Vforce
-from adamslite.language.expression import Call, Node, Ref, calls
 
 # Share of a speed, or of a pull, from which a difference counts.
 FELT = 0.01
-INSTANTS = 100
-# A small part of a time or a length, to form rates with.
-SHORT = 1e-6
-# Of what feeds the whole cable a section gets at least this share.
-FED = 1e-5
 # Directions of neighbours in a cable that lies on a line but for its sag.
 BENT = 0.05
 # Of a tension's distance from that of any section: a value so near that of an end is it.
 ALIKE = 0.01
-# Directions that differ by less are the same.
-ASIDE = 1e-6
 
 
 @dataclass(frozen=True)
@@ -66,13 +57,13 @@ def demand_on(
     free = sum(link.free for link in chain.links)
     stiffness = mean(link.stiffness * link.free for link in chain.links)
     masses = [deck.find(*node).mass / ucf for node in chain.inner]
-    shape = _Shape(chain, posture)
+    shape = ChainShape(chain, posture)
     tips = [deck.find(*node).mass / ucf for node in _tips(chain)]
     rope = _Rope(
         stiffness, mean(masses) * n / free, free, sum(tips) - mean(masses) / 2, end,
         mean(damper(link, posture) for link in chain.links),
     )  # fmt: skip
-    travel, gained, law = _travel(chain, posture, end, rope.instants)
+    travel, gained, law = travel_of(chain, posture, end, rope.instants)
     weight = mean(masses) * n * abs(shape.pull)
     drawn = mean(max(link.pull, 0.0) for link in chain.links)
     hung = (max(tips, default=0.0) + mean(masses) * n / 2) * norm(deck.gravity)
@@ -131,7 +122,7 @@ class _Rope:
         return instants(self.end, self.length * sqrt(self.density / self.stiffness), bounce)
 
 
-def _is_plain(chain: Chain, shape: _Shape) -> bool:
+def _is_plain(chain: Chain, shape: ChainShape) -> bool:
     """Whether it hangs from the ground along a line, at rest but for the weight at its tip."""
     ends = chain.nodes[0][0] == "MARKER", chain.nodes[-1][0] == "MARKER"
     if chain.is_ring or ends[0] == ends[1]:
@@ -143,7 +134,7 @@ def _is_plain(chain: Chain, shape: _Shape) -> bool:
     return still and line and aside
 
 
-def _machine(chain: Chain, shape: _Shape, rope: _Rope, law: np.ndarray | None) -> Machine:
+def _machine(chain: Chain, shape: ChainShape, rope: _Rope, law: np.ndarray | None) -> Machine:
     """Its linear model: the payout, coordinate 0, and the tip, coordinate 1, along the line from
     root to tip; across it a string with the tip alone."""
     back = chain.nodes[0][0] != "MARKER"
@@ -201,198 +192,3 @@ def is_tied(deck: Deck) -> bool:
         isinstance(each, Constraint | Diff | Vforce) or (isinstance(each, Part) and not each.ground)
         for each in deck.statements
     )
-
-
-# ---- payout ----------------------------------------------------------------------------------
-
-
-def _travel(
-    chain: Chain, posture: Posture, end: float, count: int
-) -> tuple[Travel, tuple[float, float], np.ndarray | None]:
-    """Payout over the run, the range of dm/m0, and the payout at equal instants if it is known."""
-    laws: dict[tuple[Node, ...] | float, list[Link]] = {}
-    for link in chain.links:
-        laws.setdefault(law_of(link), []).append(link)
-    fed = [(same[0], len(same)) for same in laws.values()]
-    fed = [(link, count) for link, count in fed if _is_fed(link, posture)]
-    known = all([posture.follow(call) for link, _ in fed for call in drivers(link, posture)])
-
-    def payout(time: float) -> float:
-        posture.at(time)
-        return sum(count * free_length(link, posture) for link, count in fed)
-
-    try:
-        if not fed or not end > 0:
-            return Travel(known=not fed), (0.0, 0.0), None
-        if not known:
-            speed = abs(payout(end * SHORT) - payout(0.0)) / (end * SHORT)
-            speed = speed if speed * end > SHORT * payout(0.0) else 0.0
-            gained = _gained(chain, posture)
-            return Travel(speed=speed, jump=speed, known=False), (gained, gained), None
-        times = [end * i / INSTANTS for i in range(INSTANTS + 1)]
-        ways = [payout(time) for time in times]
-        posture.at(times[ways.index(min(ways))])
-        least = _gained(chain, posture)
-        posture.at(times[ways.index(max(ways))])
-        gains = least, _gained(chain, posture)
-        law = np.array([payout(end * i / count) for i in range(count + 1)])
-        travel = from_ways([way - ways[0] for way in ways], end / INSTANTS, 0.0)
-        return travel, gains, law - law[0]
-    except Unknown:
-        return Travel(known=False), (0.0, 0.0), None
-    finally:
-        posture.at(0.0)
-
-
-def drivers(link: Link, posture: Posture) -> set[Call]:
-    """What its force depends on besides the distance of its own ends."""
-    own = {link.i, link.j}
-    return {
-        call
-        for node in link.components
-        for call in posture.measures(node)
-        if not own & {arg.id for arg in call.args if _is_marker(arg)}
-    }
-
-
-def _is_fed(link: Link, posture: Posture) -> bool:
-    """Whether its free length may change in the run."""
-    if any(posture.depends_on_time(node) for node in link.components):
-        return True
-    before = free_length(link, posture)
-    for call in drivers(link, posture):
-        posture.given[call] = posture.value(call) + SHORT * link.free
-        posture.forget()
-        after = free_length(link, posture)
-        del posture.given[call]
-        posture.forget()
-        if abs(after - before) > FED * SHORT * link.free:
-            return True
-    return False
-
-
-def _gained(chain: Chain, posture: Posture) -> float:
-    """dm/m0 of the node in the middle."""
-    node = chain.inner[len(chain.inner) // 2]
-    ucf = posture.deck.ucf
-    return gained_mass(node, posture) * ucf / posture.deck.find(*node).mass
-
-
-def gained_mass(node: Body, posture: Posture) -> float:
-    """dm of a body: minus the slope of its VFORCE by its acceleration."""
-    total = 0.0
-    for force in _grows(posture, node):
-        for component in (force.fx, force.fy, force.fz):
-            for call in set(calls(component, "ACCX", "ACCY", "ACCZ")):
-                if _is_marker(call.args[0]) and posture.body(call.args[0].id) == node:
-                    total = max(total, _slope(component, call, posture))
-    return total
-
-
-def _slope(component: Node, call: Call, posture: Posture) -> float:
-    values = []
-    for posture.given[call] in (0.0, 1.0):
-        values.append(posture.value(component))
-    del posture.given[call]
-    return values[0] - values[1]
-
-
-def _grows(posture: Posture, node: Body) -> Iterator[Vforce]:
-    """VFORCEs on a body."""
-    return (f for f in posture.deck.of(Vforce) if posture.body(f.i) == node)
-
-
-def form_of(chain: Chain, posture: Posture) -> str:
-    """What feeds mass into the nodes: nothing, the paper's term, or the flow through them."""
-    nodes = chain.inner or [node for node in chain.nodes if node[0] != "MARKER"]
-    node = nodes[len(nodes) // 2]
-    near = {posture.body(k.i) for k in chain.links} | {posture.body(k.j) for k in chain.links}
-    forms = set()
-    for force in _grows(posture, node):
-        found = [c for n in (force.fx, force.fy, force.fz) for c in calls(n)]
-        if any(c.name.startswith("ACC") for c in found):
-            seen = {posture.body(a.id) for c in found for a in c.args if _is_marker(a)}
-            forms.add("ale" if len(seen & near) > 1 else "paper")
-    return forms.pop() if len(forms) == 1 else "fixed"
-
-
-def _is_marker(node: Node) -> TypeGuard[Ref]:
-    return isinstance(node, Ref) and node.kind == "MARKER" and node.id != 0
-
-
-# ---- shape -----------------------------------------------------------------------------------
-
-
-class _Shape:
-    """How a chain lies and moves at the start."""
-
-    def __init__(self, chain: Chain, posture: Posture) -> None:
-        self.places = [_place(chain, posture, k) for k in range(len(chain.nodes))]
-        self.speeds = [
-            ZERO if node[0] == "MARKER" else posture.velocity(node) for node in chain.nodes
-        ]
-        steps = [add(b, a, -1.0) for a, b in zip(self.places, self.places[1:], strict=False)]
-        self.along = [unit(step) for step in steps]
-        across_ends = add(self.places[-1], self.places[0], -1.0)
-        self.line = unit(across_ends)
-        self.pull = dot(posture.deck.gravity, self.line)
-        self.gravity = posture.deck.gravity
-
-    @property
-    def straight(self) -> bool:
-        """Whether gravity and all places and speeds are along one line."""
-        fastest = max(map(norm, self.speeds))
-        return (
-            norm(self.line) > 0
-            and all(norm(part_across(a, self.line)) < ASIDE for a in self.along)
-            and all(norm(part_across(v, self.line)) <= ASIDE * fastest for v in self.speeds)
-            and norm(part_across(self.gravity, self.line)) <= ASIDE * norm(self.gravity)
-        )
-
-    def jumps(self) -> tuple[float, float]:
-        """Differences of speed along and across that stand between two neighbours, not spread over
-        the chain.
-        """
-        steps = [add(b, a, -1.0) for a, b in zip(self.speeds, self.speeds[1:], strict=False)]
-        along = [abs(dot(d, t)) for d, t in zip(steps, self.along, strict=True)]
-        across = [norm(part_across(d, t)) for d, t in zip(steps, self.along, strict=True)]
-        return _standing(along), _standing(across)
-
-    def leaves(self, chain: Chain) -> float:
-        """Speed at which the far end moves away along the cable; cable comes in at the other."""
-        if chain.nodes[0][0] == "MARKER" or chain.nodes[-1][0] != "MARKER":
-            return dot(self.speeds[-1], self.along[-1])
-        return -dot(self.speeds[0], self.along[0])
-
-    def wave(self, across: float, free: float) -> float:
-        """Wave number of the drawn shape and speeds, by the free length: sqrt of sum y"^2 over sum
-        y'^2, across the line.
-        """
-        if across or self.straight:
-            return 0.0
-        h = free / len(self.along)
-        numbers = [_wave_number(values, h, self.line) for values in (self.places, self.speeds)]
-        return max(numbers)
-
-
-def _wave_number(values: list[Vector], h: float, line: Vector) -> float:
-    ys = [part_across(v, line) for v in values]
-    slopes = [add(b, a, -1.0) for a, b in zip(ys, ys[1:], strict=False)]
-    bends = [add(b, a, -1.0) for a, b in zip(slopes, slopes[1:], strict=False)]
-    first = sum(dot(s, s) for s in slopes)
-    if first <= (ASIDE * max(map(norm, values))) ** 2:
-        return 0.0
-    return sqrt(sum(dot(b, b) for b in bends) / first) / h
-
-
-def _place(chain: Chain, posture: Posture, k: int) -> Vector:
-    """Of node k: its marker in the link before or after it."""
-    link = chain.links[min(k, len(chain.links) - 1)]
-    i_first = link.ends[0] == chain.nodes[min(k, len(chain.links) - 1)]
-    first, second = (link.i, link.j) if i_first else (link.j, link.i)
-    return posture.place(first if k < len(chain.links) else second)
-
-
-def _standing(steps: list[float]) -> float:
-    """The largest of some differences if it stands between two neighbours, else 0."""
-    return max(steps) if max(steps) > 0.5 * sum(steps) else 0.0

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from adamslite.cables.recognition.chain_demand import drivers
 from adamslite.cables.recognition.chain_finder import Chain
+from adamslite.cables.recognition.chain_payout import drivers
 from adamslite.cables.recognition.posture import GROUND, Body, Posture
 from adamslite.language.expression import Call, Ref
 

@@ -12,8 +12,9 @@ from adamslite.cables.description.head_comments import is_described
 from adamslite.cables.description.payout_law import Unknown
 from adamslite.cables.model.advice import Advice, advise
 from adamslite.cables.model.demand import Demand
-from adamslite.cables.recognition.chain_demand import ChainDemand, demand_on, drivers, form_of
+from adamslite.cables.recognition.chain_demand import ChainDemand, demand_on
 from adamslite.cables.recognition.chain_finder import Chain, all_rows, chains, is_cable
+from adamslite.cables.recognition.chain_payout import drivers, form_of
 from adamslite.cables.recognition.posture import Body, Posture
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command
