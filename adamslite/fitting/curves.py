@@ -1,6 +1,7 @@
 """Runs of a deck as a function of some of its numbers: curves at the times of a measurement.
 
-Derivatives by central differences::
+Derivatives are those of :mod:`adamslite.sensitivity`, along the steps of a run, where there are
+such and two runs beside confirm them at the start.  Elsewhere they are central differences::
 
     dy/dp = (y(p + h) - y(p - h)) / 2 h,     h = r scale(p),     r = ERROR^(1/3)
 
@@ -22,19 +23,22 @@ from adamslite.analyses.simulation import simulate
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command
 from adamslite.errors import RunFailed, UsageError
-from adamslite.fitting.measured import Measured
+from adamslite.fitting.measured import Measured, amplitudes
 from adamslite.fitting.parameters import Parameter
 from adamslite.language.diagnostics import DeckError
 from adamslite.progress import Progress, RunState
 from adamslite.results.comparison import INTERPOLATIONS, Mismatch, sampler
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
+from adamslite.sensitivity.study import sensitivities
 from adamslite.variation.decks import with_values
 
 CUBIC = INTERPOLATIONS[-1]
 #: Relative steps of differences are never smaller or larger.
 SMALLEST_STEP, LARGEST_STEP = 1e-4, 2e-2
-DIFFERENCES = "central differences of runs"
+EXACT, DIFFERENCES = "sensitivities of runs", "central differences of runs"
+#: Sensitivities are taken where differences of runs are so close to them, as a share of their size.
+CONFIRMED = 0.01
 #: ERROR of a run that does not say it.
 USUAL_ERROR = 1e-3
 
@@ -90,6 +94,15 @@ class Runs:
     count: int = 0
     interpolate: str | None = None
     """How values between output times are found."""
+    differs: str | None = None
+    """Why derivatives are differences; empty where they are not, None while it is not known."""
+
+    _last: tuple[tuple[Any, ...], Results] | None = field(init=False, default=None)
+
+    @property
+    def derivatives(self) -> str:
+        """How derivatives are found."""
+        return f"{DIFFERENCES} ({self.differs})" if self.differs else EXACT
 
     def results(self, values: Sequence[float], **options: Any) -> Results:
         """One run to its end.
@@ -99,12 +112,15 @@ class Runs:
         Failed
             When the numbers make no model, or the run ends early.
         """
+        asked = (*values, *sorted(options.items()), *sorted(self.options.items()))
+        if self._last is not None and self._last[0] == asked:
+            return self._last[1]
         self.count += 1
         self.progress.watch(FitState(time=0.0, end=1.0, steps=self.count))
-        numbers = dict(zip((each.name for each in self.parameters), values, strict=True))
         try:
-            deck = with_values(self.deck, {**self.given, **numbers})
-            found = simulate(deck, commands=self.commands, **{**self.options, **options})
+            found = simulate(
+                self._with(values), commands=self.commands, **{**self.options, **options}
+            )
         except DeckError as fault:
             first = next((each for each in fault.diagnostics if each.is_error), None)
             raise Failed(first.message if first else str(fault)) from None
@@ -115,7 +131,13 @@ class Runs:
         if not found.outcome.is_requested:
             reached = found.summary.get("t_end", found.time[-1] if found.time.size else 0.0)
             raise Failed(f"{found.outcome.name} at t = {reached:.6g}")
+        self._last = asked, found
         return found
+
+    def _with(self, values: Sequence[float]) -> Deck:
+        """The deck with these numbers."""
+        numbers = dict(zip((each.name for each in self.parameters), values, strict=True))
+        return with_values(self.deck, {**self.given, **numbers})
 
     def sampled(self, results: Results, measured: Measured) -> np.ndarray:
         """Curves at the times of the measurement (nt, nc); angles without whole turns.
@@ -159,12 +181,67 @@ class Runs:
         """
         at = self.results(values, **options)
         own = self.sampled(at, measured)
+        if self.differs is None:
+            self.differs = self._doubt(values, measured, at)
+        if not self.differs:
+            return Curves(own, self._sensitivities(values, measured, options))
         step = wider * relative_step(error_of(at))
+        return Curves(own, self._differences(values, own, step, measured, options))
+
+    def _sensitivities(
+        self, values: Sequence[float], measured: Measured, options: dict[str, Any]
+    ) -> np.ndarray:
+        """dy/dp (nt, nc, np) along the steps of a run."""
+        self.count += 1
+        names = [each.name for each in self.parameters]
+        try:
+            found = sensitivities(
+                self._with(values), names, measured.channels, self.commands, None,
+                **{**self.options, **options},
+            )  # fmt: skip
+        except (DeckError, RunFailed, ArithmeticError) as fault:
+            raise Failed(str(fault)) from None
+        sample = sampler(found.results, measured.time, self.interpolate)
+        columns = [
+            np.column_stack([sample(found.curve(channel, name)) for name in names])
+            for channel in measured.channels
+        ]
+        return np.stack(columns, axis=1)
+
+    def _doubt(self, values: Sequence[float], measured: Measured, at: Results) -> str:
+        """Why sensitivities are not taken, from a comparison with differences; empty where they
+        are.
+        """
+        try:
+            exact = self._sensitivities(values, measured, {})
+            own, step = self.sampled(at, measured), relative_step(error_of(at))
+            other = self._differences(values, own, step, measured, {})
+        except (UsageError, Mismatch, Failed) as fault:
+            return str(fault)
+        scale = 1.0 / amplitudes(measured)[:, None]
+        off, size = (
+            np.linalg.norm(each * scale, axis=(0, 1)) for each in (exact - other, other)
+        )  # fmt: skip
+        worst = int(np.argmax(off - CONFIRMED * size))
+        if not off[worst] > CONFIRMED * size[worst]:
+            return ""
+        name = self.parameters[worst].name
+        return f"sensitivities by {name} and differences are {off[worst] / size[worst]:.2g} apart"
+
+    def _differences(
+        self,
+        values: Sequence[float],
+        own: np.ndarray,
+        step: float,
+        measured: Measured,
+        options: dict[str, Any],
+    ) -> np.ndarray:
+        """dy/dp (nt, nc, np) from runs on both sides."""
         columns = [
             self._difference(list(values), k, own, step, measured, options)
             for k in range(len(self.parameters))
         ]
-        return Curves(own, np.stack(columns, axis=-1))
+        return np.stack(columns, axis=-1)
 
     def _difference(
         self,

@@ -17,7 +17,7 @@ from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command
 from adamslite.errors import RunFailed, UsageError
 from adamslite.fitting.certainty import certainty
-from adamslite.fitting.curves import DIFFERENCES, Curves, Failed, Runs, error_of, prepared
+from adamslite.fitting.curves import Curves, Failed, Runs, error_of, prepared
 from adamslite.fitting.least_squares import STAGES, Search
 from adamslite.fitting.measured import Measured, amplitudes, measured_of
 from adamslite.fitting.parameters import Bounds, parameters_of
@@ -178,7 +178,7 @@ def _described(
         parameters=tuple(runs.parameters), values=values, errors=errors, certainty=found,
         residuals=tuple(_residuals(curves.values, measured, results)), deck=fitted,
         results=results, before=before, measured=measured, curves=curves.values, sigmas=sigmas,
-        runs=runs.count, derivatives=DIFFERENCES, notes=tuple(filter(None, notes)),
+        runs=runs.count, derivatives=runs.derivatives, notes=tuple(filter(None, notes)),
         stopped=stopped,
     )  # fmt: skip
 

@@ -5,7 +5,8 @@ Equation::
     minimise  sum over times t and channels c of  ((y_c(t; p) - m_c(t)) / sigma_c(t))^2
 
 by the trust-region reflective method, in the coordinates of :mod:`adamslite.fitting.parameters`.
-A run that fails makes the region smaller.
+A run that fails makes the region smaller.  The squares of e x are added, with e a millionth of the
+largest singular value: what the measurement does not tell at all stays where it began.
 """
 
 from __future__ import annotations
@@ -23,6 +24,8 @@ from adamslite.fitting.measured import Measured
 LEAST_GAIN, LEAST_STEP = 1e-9, 1e-9
 #: So many trial points at most.
 MOST_TRIALS = 100
+#: What coordinates are held to their start with, as a share of the largest singular value.
+LEASH = 1e-6
 #: Parts of the times that are fitted one after the other, where all at once lead nowhere.
 STAGES = (1.0 / 32.0, 1.0 / 8.0, 0.5, 1.0)
 
@@ -57,6 +60,8 @@ class Search:
     sigmas: np.ndarray
     known: dict[tuple[float, ...], Any] = field(default_factory=dict)
     """Curves by values, or the :class:`Failed` of a run."""
+    last: tuple[tuple[float, ...], np.ndarray] | None = None
+    """The last Jacobian, and its values."""
 
     def values(self, x: np.ndarray) -> tuple[float, ...]:
         """The numbers of coordinates."""
@@ -88,8 +93,11 @@ class Search:
 
     def slopes(self, x: np.ndarray) -> np.ndarray:
         """The Jacobian (n, np)."""
-        curves = self.runs.curves_and_derivatives(self.values(x), self.measured)
-        return self.jacobian(x, curves)
+        values = self.values(x)
+        if self.last is None or self.last[0] != values:
+            curves = self.runs.curves_and_derivatives(values, self.measured)
+            self.last = values, self.jacobian(x, curves)
+        return self.last[1]
 
     def solve(self, start: np.ndarray, part: float = 1.0) -> tuple[np.ndarray, str]:
         """Coordinates of the least squares, and why it ended early, which may be empty.
@@ -98,26 +106,23 @@ class Search:
         """
         from scipy.optimize import least_squares
 
-        rows = self._rows(part)
-        low, high = (
-            np.array(
-                [p.coordinate(each) for p, each in zip(self.runs.parameters, ends, strict=True)]
-            )
-            for ends in zip(*((p.low, p.high) for p in self.runs.parameters), strict=True)
-        )
-        tried: list[np.ndarray] = []
+        rows, tried = self._rows(part), [start]
 
         def residuals(x: np.ndarray) -> np.ndarray:
             tried.append(x.copy())
-            return self.at(x)[rows]
+            return np.append(self.at(x)[rows], leash * x)
+
+        def slopes(x: np.ndarray) -> np.ndarray:
+            return np.vstack([self.slopes(x)[rows], leash * np.eye(len(x))])
 
         try:
+            leash = LEASH * float(np.linalg.norm(self.slopes(start)[rows], 2))
             found = least_squares(
-                residuals, start, lambda x: self.slopes(x)[rows], bounds=(low, high), method="trf",
-                ftol=LEAST_GAIN, xtol=LEAST_STEP, gtol=1e-12, x_scale=1.0, max_nfev=MOST_TRIALS,
+                residuals, start, slopes, bounds=self._bounds(), method="trf", ftol=LEAST_GAIN,
+                xtol=LEAST_STEP, gtol=1e-12, x_scale=1.0, max_nfev=MOST_TRIALS,
             )  # fmt: skip
         except Failed as fault:  # of all runs for derivatives
-            best = self._best(tried, rows, start)
+            best = self._best(tried, rows)
             return best, f"no derivatives at {self._told(best)}: {fault}"
         if found.status == 0:
             return found.x, f"not settled after {MOST_TRIALS} trials"
@@ -126,6 +131,12 @@ class Search:
             return found.x, f"stopped beside {self._told(tried[-1])}, where runs fail: {failed}"
         return found.x, ""
 
+    def _bounds(self) -> tuple[np.ndarray, np.ndarray]:
+        """Lowest and highest coordinates (np,)."""
+        found = [(p.coordinate(p.low), p.coordinate(p.high)) for p in self.runs.parameters]
+        low, high = np.array(found).T
+        return low, high
+
     def _rows(self, part: float) -> np.ndarray:
         """The residuals of the first part of the times (n,)."""
         time = self.measured.time
@@ -133,11 +144,11 @@ class Search:
         inside = np.broadcast_to((time <= until)[:, None], self.measured.known.shape)
         return np.asarray(inside[self.measured.known])
 
-    def _best(self, tried: Sequence[np.ndarray], rows: np.ndarray, start: np.ndarray) -> np.ndarray:
+    def _best(self, tried: Sequence[np.ndarray], rows: np.ndarray) -> np.ndarray:
         """The best of the points that were tried."""
         costs = [np.sum(self.at(x)[rows] ** 2) for x in tried]
         finite = [k for k, cost in enumerate(costs) if np.isfinite(cost)]
-        return tried[min(finite, key=lambda k: costs[k])] if finite else start
+        return tried[min(finite, key=lambda k: costs[k])] if finite else tried[0]
 
     def _told(self, x: np.ndarray) -> str:
         pairs = zip(self.runs.parameters, self.values(x), strict=True)
