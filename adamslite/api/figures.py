@@ -132,7 +132,7 @@ class Frame(str):
 
 
 def view(
-    results: Results | Deck | str | os.PathLike[str],
+    results: Results | Sweep | Deck | str | os.PathLike[str],
     output: str | os.PathLike[str] | None = None,
     against: Results | str | os.PathLike[str] | None = None,
     deck: Deck | str | os.PathLike[str] | None = None,
@@ -141,13 +141,16 @@ def view(
     size: tuple[int, int] = (1280, 720),
     along: str | None = None,
     dark: bool = False,
+    runs: str | Sequence[int] | None = None,
+    channels: str | Sequence[str] = (),
 ) -> Frame | Path:
     """Show how it moves, as `adamslite view` does: in a notebook in a frame, else in the browser.
 
     Parameters
     ----------
-    results : Results, Deck, str or Path
-        Results, a file of them, or a deck, which is solved first.
+    results : Results, Sweep, Deck, str or Path
+        Results, a sweep, a file of one of them, or a deck, which is solved first. The page of a
+        sweep shows the run that sliders choose; runs are computed again.
     output : str or Path
         The page (.html) to write; by default the name of the deck, in the current folder.  A
         notebook writes none unless it is named.  Other suffixes: an animated model (.glb), a
@@ -163,6 +166,9 @@ def view(
     size, along, dark
         Of pictures and films: width and height in pixels, from where they look ("x", "y", "z",
         "iso"; by default the front), and whether the ground is dark.
+    runs, channels
+        Of a sweep: the runs, by their numbers or as ``"0:100:5"``, and names or patterns of the
+        columns to plot.
 
     Returns
     -------
@@ -175,10 +181,15 @@ def view(
         When there is no deck, or it has none of the bodies of the results.
     """
     from adamslite.drawing.run_deck import deck_of, need_its_bodies
-    from adamslite.page.desktop import open_page
     from adamslite.page.page import page
     from adamslite.page.showing import Look, write_motion
 
+    sweep = _sweep_of(results)
+    if sweep is not None:
+        return _view_sweep(sweep, output, deck, show, runs, channels)
+    if runs is not None or channels:
+        raise UsageError("runs= and channels= belong to a sweep")
+    assert not isinstance(results, Sweep)
     found = results_of(results, deck)
     need_its_bodies(deck_of(found), found, "the given table")
     other = None if against is None else results_of(against, None)
@@ -188,9 +199,45 @@ def view(
         return Frame(page(found, None, other, name))
     path = Path(output or f"{found.source.stem if found.source else 'results'}.html")
     write_motion(path, deck_of(found), found, other, name, look)
-    if (show or (show is None and output is None)) and not open_page(path):
-        warnings.warn(f"no browser could be opened; open {path} yourself", stacklevel=2)
+    return _opened(path, show, output is None)
+
+
+def _opened(path: Path, show: bool | None, unnamed: bool) -> Path:
+    """A page that is written, opened where that is asked for."""
+    from adamslite.page.desktop import open_page
+
+    if (show or (show is None and unnamed)) and not open_page(path):
+        warnings.warn(f"no browser could be opened; open {path} yourself", stacklevel=3)
     return path
+
+
+def _view_sweep(
+    sweep: Sweep,
+    output: str | os.PathLike[str] | None,
+    deck: Deck | str | os.PathLike[str] | None,
+    show: bool | None,
+    runs: str | Sequence[int] | None,
+    channels: str | Sequence[str],
+) -> Frame | Path:
+    """The page of a sweep."""
+    from adamslite.page.page import write_page
+    from adamslite.page.showing import PAGES
+    from adamslite.sweeps.motions import numbers_of_runs, page_of_sweep
+
+    path = Path(output or "sweep.html")
+    if path.suffix.lower() not in PAGES:
+        raise UsageError(f"'{path}': a sweep is shown by a page (.html)")
+    names = [channels] if isinstance(channels, str) else channels
+    if isinstance(deck, str | os.PathLike):
+        deck = read(Path(deck) if isinstance(deck, os.PathLike) else deck)
+    numbers = numbers_of_runs(runs, len(sweep)) if isinstance(runs, str) else runs
+    page, told = page_of_sweep(sweep, deck, numbers, names)
+    if told:
+        warnings.warn(told, DeckWarning, stacklevel=3)
+    if output is None and show is not True and in_notebook():
+        return Frame(page)
+    write_page(page, path)
+    return _opened(path, show, output is None)
 
 
 def _look(along: str | None, dark: bool) -> dict[str, str]:

@@ -29,10 +29,10 @@ LARGEST = float(np.finfo(np.float32).max)
 
 
 class Block:
-    """Arrays one after the other, each from a multiple of four bytes on."""
+    """Arrays one after the other, each from a multiple of four bytes on; equal ones once."""
 
     def __init__(self) -> None:
-        self._pieces: list[bytes] = []
+        self._pieces: dict[bytes, int] = {}
         self._size = 0
 
     def f32(self, values: np.ndarray) -> Reference:
@@ -62,16 +62,16 @@ class Block:
         return found
 
     def json(self, plain: object) -> Reference:
-        """A list of plain data."""
+        """Plain data."""
         text = json.dumps(plain, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
         content = text.encode()
         return self._reference(content, (len(content),), "json")
 
     def _reference(self, content: bytes, shape: tuple[int, ...], coding: str) -> Reference:
-        at = self._size
         padded = content + bytes(-len(content) % 4)
-        self._pieces.append(padded)
-        self._size += len(padded)
+        at = self._pieces.setdefault(padded, self._size)
+        if at == self._size:
+            self._size += len(padded)
         return {"at": at, "shape": list(shape), "coding": coding}
 
     def text(self) -> str:

@@ -27,11 +27,11 @@ def unit_symbols(deck: Deck) -> dict[str, str]:
     return {**named, "angle": "rad"}
 
 
-def channels(deck: Deck, results: Results, block: Block) -> dict[str, Any]:
-    """All columns over times of their own."""
+def channels(deck: Deck, results: Results, block: Block, runs: int = 1) -> dict[str, Any]:
+    """All columns over times of their own; `runs`: how many are in the page."""
     symbols = unit_symbols(deck)
-    time, values = points(results.time, results.values)
-    exact = values.size <= EXACT
+    time, values = points(results.time, results.values, runs)
+    exact = values.size * runs <= EXACT
     references = [block.f32(own) for own in values.T] if exact else block.columns(values, LEVELS)
     named = []
     for name, reference in zip(results.names, references, strict=True):

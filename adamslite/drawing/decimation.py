@@ -12,13 +12,19 @@ POINTS = (150, 2000)
 """Least and most points of a channel."""
 CHANNEL_BUDGET = 800_000
 """Numbers of all channels."""
+RUNS_BUDGET, RUNS_CHANNEL_BUDGET = 6_000_000, 8_000_000
+"""The same of all runs in a page that has several."""
+FEWEST = 60
+"""Frames and points of a run that are enough among many."""
 
 
-def frames(time: np.ndarray, numbers: int) -> np.ndarray:
+def frames(time: np.ndarray, numbers: int, runs: int = 1) -> np.ndarray:
     """The rows that are drawn, of motions with so many numbers a frame: the first, the last, and
-    those nearest to equal steps of time.
+    those nearest to equal steps of time; `runs`: how many motions are in the page.
     """
     most = int(np.clip(BUDGET // max(numbers, 1), *FRAMES))
+    if runs > 1:
+        most = max(min(most, RUNS_BUDGET // (runs * max(numbers, 1))), FEWEST)
     if len(time) <= most:
         return np.arange(len(time))
     wanted = np.linspace(time[0], time[-1], most)
@@ -27,13 +33,15 @@ def frames(time: np.ndarray, numbers: int) -> np.ndarray:
     return np.unique(np.concatenate([[0], nearer, [len(time) - 1]]))
 
 
-def points(time: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def points(time: np.ndarray, values: np.ndarray, runs: int = 1) -> tuple[np.ndarray, np.ndarray]:
     """Times and values (n, nc) that show the same lines: of each stretch of rows, every channel
-    keeps its least and its largest value, in their order.
+    keeps its least and its largest value, in their order; `runs`: how many are in the page.
 
     Source: the min-max decimation of oscilloscopes.
     """
     count = int(np.clip(CHANNEL_BUDGET // max(values.shape[1], 1), *POINTS))
+    if runs > 1:
+        count = max(min(count, RUNS_CHANNEL_BUDGET // (runs * max(values.shape[1], 1))), FEWEST)
     if len(time) <= count:
         return time, values
     bounds = np.linspace(1, len(time) - 1, count // 2).astype(int)

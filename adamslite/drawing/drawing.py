@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -17,11 +17,23 @@ from adamslite.elements.marker import Marker
 from adamslite.language.interfaces import Key
 from adamslite.model.model import PART, Model
 from adamslite.results.results import Results
+from adamslite.results.selection import limited
 
 # Numbers that a frame of a part and of a point mass takes.
 OF_PART, OF_POINT = 7, 3
 FURTHER = 4.0
 """By how much the travel of the bodies may enlarge a scene."""
+
+
+@dataclass(frozen=True)
+class Page:
+    """What the runs of a page have in common: the block, how many they are, and patterns of the
+    columns that are plotted, all where there are none.
+    """
+
+    block: Block = field(default_factory=Block)
+    runs: int = 1
+    plotted: tuple[str, ...] = ()
 
 
 class Drawing:
@@ -36,23 +48,31 @@ class Drawing:
         Of the bodies, at the frames that are drawn.
     block : Block
         Where arrays go.
+    page : Page
+        What all runs of the page have in common.
     notes : list of str
         What a reader of the picture must know.
     """
 
-    def __init__(self, deck: Deck, results: Results) -> None:
+    def __init__(self, deck: Deck, results: Results, page: Page | None = None) -> None:
         given, results = len(results.time), forward(results)
         self.deck, self.results = deck, results
         self.model = Model(deck)
-        numbers = sum(OF_PART if b.width == PART else OF_POINT for b in self.model.bodies)
-        self.motion = Motion(self.model, results, frames(results.time, numbers))
-        self.block = Block()
+        self.page = page or Page()
+        rows = frames(results.time, numbers_of(self.model), self.page.runs)
+        self.motion = Motion(self.model, results, rows)
+        self.block = self.page.block
         self.notes = [*([REPEATED] if len(results.time) < given else []), *self.motion.notes]
 
     @property
     def frames(self) -> Frames:
         """Markers in the axes of their bodies."""
         return self.motion.frames
+
+    @property
+    def plotted(self) -> Results:
+        """The results with the columns that are plotted."""
+        return limited(self.results, self.page.plotted) if self.page.plotted else self.results
 
     @cached_property
     def markers(self) -> list[Marker]:
@@ -94,6 +114,11 @@ class Drawing:
         if values is None:
             return None
         return self.block.i16(values) if np.isfinite(values).all() else self.block.f32(values)
+
+
+def numbers_of(model: Model) -> int:
+    """How many numbers a frame has."""
+    return sum(OF_PART if body.width == PART else OF_POINT for body in model.bodies)
 
 
 def _diagonal(places: np.ndarray) -> float:

@@ -73,7 +73,14 @@ def scene(deck: Deck, results: Results, other: Results | None = None, name: str 
     `name` is what the other results are called.
     """
     drawing = Drawing(deck, results)
-    found = contents(drawing)
+    return Scene(described(drawing, results, other, name), drawing.block.text())
+
+
+def described(
+    drawing: Drawing, results: Results, other: Results | None = None, name: str = ""
+) -> dict[str, Any]:
+    """All of a scene but the arrays, which go to the block of the drawing."""
+    deck, found = drawing.deck, contents(drawing)
     file = deck.path.name if deck.path else ""
     plain = {
         "version": VERSION,
@@ -93,12 +100,12 @@ def scene(deck: Deck, results: Results, other: Results | None = None, name: str 
         "links": found.links,
         "cables": found.cables.lines,
         "arrows": arrows(drawing, found.statements, found.cables.taken, found.cables.inner),
-        "channels": channels(deck, drawing.results, drawing.block),
+        "channels": channels(deck, drawing.plotted, drawing.block, drawing.page.runs),
         "events": [each._asdict() for each in events_of(results)],
         "modes": modes(drawing),
         "against": against(drawing, other, name) if other else None,
     }
-    return Scene({**plain, "notes": drawing.notes}, drawing.block.text())
+    return {**plain, "notes": drawing.notes}
 
 
 def outcome(results: Results) -> str:

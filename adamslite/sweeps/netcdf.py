@@ -10,7 +10,8 @@ Dimensions are ``run`` and, where histories are kept, ``time``::
 
 The attribute ``name`` of a variable is its name in the deck, ``role`` what it is. Where runs have
 other output times, ``output_time`` (run, sample) has them. Attributes of the file say deck, sample
-and ``sweep``, which identifies deck, numbers and what is kept.
+and ``sweep``, which identifies deck, numbers and what is kept; ``source`` and ``options`` (JSON)
+are what the runs were made from (:mod:`adamslite.sweeps.origin`).
 """
 
 from __future__ import annotations

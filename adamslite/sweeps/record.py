@@ -153,6 +153,12 @@ class Sweep:
         """
         return adamslite.plot(self, names, **options)
 
+    def view(self, output: str | Path | None = None, **options: Any) -> Any:
+        """Show the run that sliders choose; ``runs``, ``channels``, ``deck`` and ``show`` as for
+        :func:`adamslite.view`.
+        """
+        return adamslite.view(self, output, **options)
+
     def __repr__(self) -> str:
         done = len(self) - len(self.ahead)
         ends = ", ".join(f"{count} {ending}" for ending, count in self.endings.most_common())

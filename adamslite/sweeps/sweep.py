@@ -27,6 +27,7 @@ from adamslite.results.selection import selected
 from adamslite.sweeps import netcdf
 from adamslite.sweeps.job import Job
 from adamslite.sweeps.measures import of_columns, parsed
+from adamslite.sweeps.origin import origin_texts
 from adamslite.sweeps.progress import RunsState
 from adamslite.sweeps.ranges import GRID, Varied, ranges_of, sampled
 from adamslite.sweeps.record import Sweep
@@ -151,6 +152,7 @@ def planned(
     units["time"] = symbols.get("time", "")
     drawn = wanted.sample if wanted.sample == GRID else f"{wanted.sample} seed {wanted.seed}"
     meta = {"deck": deck.title, "deck hash": deck.hash, "sample": drawn}
+    meta |= origin_texts(deck, commands, options)
     made = Sweep(
         names=names, values=values, measured=tuple(map(str, kept)), channels=channels,
         key=_key(job, deck), meta=meta, units=units,

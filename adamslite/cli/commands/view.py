@@ -1,11 +1,15 @@
 """write a page that shows how it moves, and open it in the browser
 
-SCENE is a deck, which is solved first as `adamslite solve` does, or a result file. A result file
+SCENE is a deck, which is solved first as `adamslite solve` does, a result file, or the file of a
+sweep. A result file
 that carries no deck (.csv) is drawn with the deck of --deck, else with the one beside it. The page
 is one HTML file that needs nothing else: it goes to SCENE's name with .html in the current
 directory and is opened, or to OUT. --glb writes an animated model in binary glTF instead; --png
 one picture, --gif and --mp4 a film, which an installed Chromium, Chrome or Edge draws (and FFmpeg
 joins). So does a name of OUT that ends in .glb, .gif or .mp4.
+
+Of the file of a sweep the page shows the run that sliders choose: runs are computed again from the
+deck that the file carries.
 """
 
 import argparse
@@ -26,7 +30,7 @@ OTHERS = (".glb", ".png", ".gif", ".mp4")
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of `adamslite view`."""
-    parser.add_argument("scene", metavar="SCENE", type=Path, help="deck (.adm) or result file")
+    parser.add_argument("scene", metavar="SCENE", type=Path, help="deck (.adm), result file, sweep")
     parser.add_argument("commands", metavar="COMMANDS.acf", type=Path, nargs="?")
     parser.add_argument("--deck", metavar="DECK", type=Path, help="deck of the result file")
     parser.add_argument("-o", "--output", metavar="OUT", type=Path, help="file to write")
@@ -48,6 +52,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--dark", action="store_true", help="pictures on a dark ground")
     parser.add_argument("--no-open", action="store_true", help="write the page only")
+    sweep = parser.add_argument_group("of a sweep")
+    sweep.add_argument(
+        "--runs", metavar="RUNS", help="these runs alone: 0,5,7, or FROM:TO, or FROM:TO:STEP"
+    )
+    sweep.add_argument(
+        "--channels", metavar="PATTERN", nargs="+", default=[],
+        help="plot these columns alone: 'REQUEST/*'; all where they have room",
+    )  # fmt: skip
     add_user_flag(parser)
     add_values_flag(parser)
     add_run_flags(parser)
@@ -55,12 +67,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Draw; return the exit code."""
+    from adamslite.errors import UsageError
     from adamslite.outputs.whole_files import need_writable
     from adamslite.results.results import Results
+    from adamslite.sweeps.netcdf import holds_sweep
 
     kind = _kind(args)
     output = _output(args, kind)
     _need_programs(args, kind)
+    if holds_sweep(args.scene):
+        return _sweep(args, kind, output)
+    if args.runs or args.channels:
+        raise UsageError("--runs and --channels belong to the file of a sweep")
     other = Results.load(args.against) if args.against else None
     need_writable(output, [each for each in (args.scene, args.against, args.deck) if each])
     deck, results, code = _solved(args, output) if _is_deck(args) else _loaded(args, output)
@@ -189,6 +207,40 @@ def _write(
     }
     look = Look(args.png, args.size or SIZE, asked)
     write_motion(output, deck, results, other, args.against.name if args.against else "", look)
+
+
+def _sweep(args: argparse.Namespace, kind: str, output: Path) -> int:
+    """The page of the runs of a sweep."""
+    import adamslite
+    from adamslite.errors import UsageError
+    from adamslite.outputs.whole_files import need_writable
+    from adamslite.page.page import write_page
+    from adamslite.progress import TalkingProgress
+    from adamslite.sweeps.motions import numbers_of_runs, page_of_sweep
+    from adamslite.sweeps.netcdf import read
+
+    if args.commands or args.values or args.against or run_options(args):
+        raise UsageError(f"{args.scene} holds a sweep: its runs are carried out as they were")
+    if kind not in PAGES:
+        raise UsageError(
+            f"'{output}': a sweep is shown by a page; solve a deck with --set for one of its runs"
+        )
+    need_writable(output, [each for each in (args.scene, args.deck) if each])
+    found = read(args.scene)
+    numbers = numbers_of_runs(args.runs, len(found)) if args.runs else None
+    deck = adamslite.read(args.deck, args.user) if args.deck else None
+    progress = TalkingProgress()
+    try:
+        page, told = page_of_sweep(found, deck, numbers, args.channels, progress)
+    finally:
+        progress.close()
+    if told:
+        sys.stderr.write(f"adamslite: {told}\n")
+    write_page(page, output)
+    sys.stderr.write(f"{output}\n")
+    if not (args.output or args.no_open):
+        _open(output)
+    return STOPPED_EARLY if found.failed or found.ahead else DONE
 
 
 def _open(page: Path) -> None:

@@ -183,6 +183,23 @@ export class Camera {
         else this.changed();
     }
 
+    /** From where a reader looks; null in place of a place where the whole motion is framed. */
+    get state() {
+        const free = this.fitted ? null : this.#state();
+        return { direction: this.direction, free };
+    }
+
+    restore({ direction, free }) {
+        this.direction = direction;
+        if (free) {
+            this.fitted = false;
+            this.#put(free.position, free.target);
+        } else {
+            this.fitted = true;
+            this.fit(false);
+        }
+    }
+
     describe() {
         const { position, fov, near, far, aspect } = this.camera;
         return { position: position.toArray(), target: this.controls.target.toArray(), fov, near, far, aspect };

@@ -124,7 +124,7 @@ export class Channels {
 
 /** The field for words and the list of what they find. */
 export class ChannelPicker {
-    constructor(channels, chosen, toggle) {
+    constructor(channels, chosen, toggle, signal) {
         this.channels = channels;
         this.chosen = chosen;
         this.toggle = toggle;
@@ -141,7 +141,7 @@ export class ChannelPicker {
         });
         document.addEventListener("pointerdown", ({ target }) => {
             if (!this.element.contains(target)) this.open(false);
-        });
+        }, { signal });
     }
 
     open(shown) {

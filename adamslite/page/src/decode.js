@@ -50,7 +50,7 @@ export class Archive {
         return new Track(data, rows, width);
     }
 
-    /** A plain list, or one that is kept as JSON text among the arrays. */
+    /** Plain data, or those that are kept as JSON text among the arrays. */
     list(source) {
         if (Array.isArray(source)) return source;
         const text = this.bytes.subarray(source.at, source.at + source.shape[0]);

@@ -18,6 +18,10 @@ export function keysOf(app) {
         [["l"], "L", "names of bodies", () => app.showing.toggle("labels")],
         [["g"], "G", "force arrows", () => app.showing.toggle("force")],
         [["r"], "R", "reaction arrows", () => app.showing.toggle("reaction")],
+        ...(app.runs ? [
+            [[","], ",", "the run before", () => app.runs.step(-1)],
+            [["."], ".", "the run after", () => app.runs.step(1)],
+        ] : []),
         [["p"], "P", "panel with the plots", () => app.togglePanel()],
         [["t"], "T", "dark or light", () => app.toggleTheme()],
         [["?", "h"], "?", "this list", () => app.help.toggle()],
@@ -25,15 +29,19 @@ export function keysOf(app) {
     ];
 }
 
-export function listenToKeys(keys) {
+// Keys that move a slider of its own.
+const MOVING = new Set(["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Home", "End", "PageUp", "PageDown"]);
+
+export function listenToKeys(keys, signal) {
     document.addEventListener("keydown", (event) => {
         const field = event.target.closest?.("input:not([type=range]):not([type=checkbox]), select, textarea");
         if (event.ctrlKey || event.metaKey || event.altKey || field) return;
+        if (MOVING.has(event.key) && event.target.closest?.(".runs input")) return;
         const found = keys.find(([names]) => names.includes(event.key) || names.includes(event.key.toLowerCase()));
         if (!found) return;
         event.preventDefault();
         found[3]();
-    });
+    }, { signal });
 }
 
 /** The list of keys, over the page. */

@@ -20,6 +20,7 @@ export class Panel {
     }
 
     choose(index) {
+        this.chosen = this.tabs[index].name;
         this.buttons.forEach((button, k) => button.setAttribute("aria-selected", String(k === index)));
         this.pages.forEach((page, k) => {
             page.hidden = k !== index;
@@ -83,5 +84,10 @@ export function showMenu(options) {
     });
     const menu = h("div", { class: "card menu", hidden: true }, ...boxes.map(({ row }) => row));
     const toggle = (name) => boxes.find((each) => each.name === name)?.box.click();
-    return { menu, toggle };
+    const state = () => boxes.map(({ name, box }) => [name, box.checked]);
+    const restore = (wanted) => {
+        const shown = new Map(wanted);
+        for (const { name, box } of boxes) if (shown.has(name) && shown.get(name) !== box.checked) box.click();
+    };
+    return { menu, toggle, state, restore };
 }

@@ -46,7 +46,7 @@ export class Player {
         this.fill = h("i", { class: "fill" });
         this.knob = h("i", { class: "knob" });
         this.output = h("output", { class: "readout" });
-        this.loopButton = iconButton("loop", "Repeat", () => this.#setLoop(!this.loops), { "aria-pressed": "true" });
+        this.loopButton = iconButton("loop", "Repeat", () => this.setLoop(!this.loops), { "aria-pressed": "true" });
         return h(
             "footer",
             { class: "player" },
@@ -77,7 +77,7 @@ export class Player {
         return this.select;
     }
 
-    #setLoop(loops) {
+    setLoop(loops) {
         this.loops = loops;
         this.loopButton.setAttribute("aria-pressed", String(loops));
     }

@@ -171,7 +171,14 @@ export class Plots {
         this.plots = [];
         this.element = h("div", { class: "plots" });
         this.hint = h("p", { class: "hint" });
-        new ResizeObserver(() => this.layout()).observe(this.element);
+        this.resizing = new ResizeObserver(() => this.layout());
+        this.resizing.observe(this.element);
+    }
+
+    /** Draws nothing from now on. */
+    leave() {
+        this.resizing.disconnect();
+        for (const plot of this.plots) plot.chart?.destroy();
     }
 
     colour(name) {

@@ -12,11 +12,12 @@ function isSoftware() {
 }
 
 export class Stage {
-    /** `crowded`: so much is drawn that smooth edges cost too much without a graphics card. */
-    constructor(canvas, theme, crowded) {
+    /** `crowded`: so much is drawn that smooth edges cost too much without a graphics card;
+     *  `renderer`: one that draws to the canvas already. */
+    constructor(canvas, theme, crowded, renderer = null) {
         this.canvas = canvas;
-        const antialias = !(crowded && isSoftware());
-        this.renderer = new WebGLRenderer({ canvas, antialias, powerPreference: "high-performance" });
+        const antialias = !(crowded && !renderer && isSoftware());
+        this.renderer = renderer ?? new WebGLRenderer({ canvas, antialias, powerPreference: "high-performance" });
         this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
         this.scene = new Scene();
         // Matrices are written where bodies are placed, not searched for in every frame.
@@ -64,6 +65,16 @@ export class Stage {
         this.strokes.delete(strokes);
         this.scene.remove(strokes.mesh);
         strokes.dispose();
+    }
+
+    /** Gives back what the graphics card holds of the scene. */
+    free() {
+        for (const strokes of this.strokes) strokes.dispose();
+        this.scene.traverse(({ geometry, material }) => {
+            geometry?.dispose();
+            material?.dispose?.();
+        });
+        this.scene.clear();
     }
 
     resize(width, height) {

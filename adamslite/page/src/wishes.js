@@ -1,6 +1,6 @@
 // What an address asks of the page behind its #, as in page.html#t=1.5&theme=dark&view=iso:
 // t, theme, view, plot (channels, commas between), select, show (labels, force, ...), tab, mode (a
-// number from 1) and its phase; bare (the scene alone), size (1280x720, of the scene), film (times,
+// number from 1) and its phase; run (of a sweep, its number); bare (the scene alone), size (1280x720, of the scene), film (times,
 // commas between: pictures at these times). A page that is asked for none of t, mode, bare and film
 // plays at once, unless its reader wants less motion.
 
@@ -15,6 +15,7 @@ export function wishes(hash) {
         theme: theme === "dark" || theme === "light" ? theme : undefined,
         plot: list(asked.get("plot")),
         plays: !["t", "mode", "bare", "film"].some((key) => asked.has(key)) && !matchMedia("(prefers-reduced-motion: reduce)").matches,
+        run: number(asked.get("run")),
         bare: asked.has("bare"),
         size: asked.get("size")?.split("x").map(Number),
         film: list(asked.get("film"))?.map(Number),
