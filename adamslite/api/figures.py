@@ -39,6 +39,7 @@ def plot(
     band: tuple[float, float] | None = None,
     pairs: bool = False,
     indices: bool = False,
+    dark: bool = False,
 ) -> Figure:
     """Draw channels of results, or the runs of a sweep, as `adamslite plot` does; needs
     matplotlib.
@@ -65,6 +66,8 @@ def plot(
         all, ``(5, 95)``.
     pairs, indices : bool
         Of a sweep measures and numbers over each other; Sobol indices.
+    dark : bool
+        Whether the ground is dark.
 
     Raises
     ------
@@ -88,13 +91,13 @@ def plot(
 
         names = [channels] if isinstance(channels, str) else channels
         wanted = Wanted(names=names, x=x, by=by, band=band, pairs=pairs, indices=indices)
-        figure = sweep_figure(sweep, wanted)
+        figure = sweep_figure(sweep, wanted, dark)
     elif by or band or pairs or indices:
         raise UsageError("by=, band=, pairs= and indices= belong to a sweep")
     else:
         assert not isinstance(results, Sweep)
         beside = Path(against) if isinstance(against, os.PathLike) else against
-        figure = drawn(results_of(results, deck), channels, beside, x or "time")
+        figure = drawn(results_of(results, deck), channels, beside, x or "time", dark)
     if output is not None:
         save(figure, Path(output))
     # A figure made without pyplot has no picture of its own for notebooks.

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from adamslite.plots import style
+from adamslite.plots.dark import GROUND
 from adamslite.plots.selection import clipped, pretty
 from adamslite.plots.sweep_selection import Column
 
@@ -83,10 +84,12 @@ class Scale:
 
 
 def _map() -> Any:
-    from matplotlib import colormaps
+    """The part of a scale of colours that is seen on the ground of the figure that is made."""
+    from matplotlib import colormaps, rcParams
     from matplotlib.colors import ListedColormap
 
-    return ListedColormap(colormaps["cividis"](np.linspace(0.0, 0.93, 256)))
+    seen = (0.35, 1.0) if rcParams["axes.facecolor"] == GROUND else (0.0, 0.93)
+    return ListedColormap(colormaps["cividis"](np.linspace(*seen, 256)))
 
 
 def mark_failed(axis: Axes, places: np.ndarray, colours: Any = style.RED) -> None:

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 #: More lines than this are a surface: they are drawn as a band.
 MOST_LINES = 300
 USUAL = (5.0, 95.0)
+#: Histories with fewer output times have their points marked.
+FEWEST = 3
 DOTTED = (0, (1, 1.4))
 
 
@@ -64,6 +66,7 @@ def lines(runs: Runs, names: Sequence[str], drawn: Sequence[int], wanted: Wanted
                 table, colors=scale.colours(by.values[kept]), linestyles=[dashes],
                 linewidths=1.4 if len(drawn) <= 12 else 0.8,
             ))  # fmt: skip
+        _few(axis, runs, [k for k in drawn if runs.good[k]], at, scale)
         _ends(axis, runs, failed, at, scale)
         axis.autoscale_view()
     scale.explain(figure, axes)
@@ -75,6 +78,16 @@ def _line(runs: Runs, run: int, at: int) -> np.ndarray:
     time, values = runs.sweep.histories[run]
     own = np.where(np.isfinite(values[:, at]), values[:, at], np.nan)
     return np.column_stack([time, own])
+
+
+def _few(axis: Axes, runs: Runs, drawn: Sequence[int], at: int, scale: Scale) -> None:
+    """Points of histories that are hardly a line: those of an equilibrium have one."""
+    short = [k for k in drawn if len(runs.sweep.histories[k][0]) < FEWEST]
+    if short and scale.column:
+        rows = [_line(runs, k, at) for k in short]
+        values = np.repeat(scale.column.values[short], [len(row) for row in rows])
+        time, points = np.concatenate(rows).T
+        axis.scatter(time, points, s=16, c=scale.colours(values), zorder=4)
 
 
 def _ends(axis: Axes, runs: Runs, failed: Sequence[int], at: int, scale: Scale) -> None:

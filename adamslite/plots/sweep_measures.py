@@ -32,6 +32,8 @@ MARKED_POINTS = 40
 FEW = 100
 #: Most columns of a matrix of scatter, and the side of one of its axes [in].
 MOST_COLUMNS, SIDE = 7, 1.75
+#: Letters along such a side.
+SMALL = 7.0
 
 
 def measures_figure(runs: Runs, names: Sequence[str], wanted: Wanted) -> Figure:
@@ -215,7 +217,9 @@ def pairs(runs: Runs, columns: Sequence[Column]) -> Figure:
             axis.tick_params(labelleft=m == (0 if n else 1) and m != n, labelsize=7)
     for n, each in enumerate(shown):
         number_axis(axes[-1, n].xaxis, _short(each))
-        axes[n, 0].set_ylabel(_short(each).label)
+        axes[n, 0].set_ylabel(_short(each).label, fontsize=SMALL)
+        axes[-1, n].xaxis.label.set_size(SMALL)
+        style.plain_ticks(axes[n, 1 if n == 0 else 0].yaxis)
     _few_ticks(axes[-1])
     return figure
 

@@ -45,6 +45,21 @@ class Wanted:
             raise UsageError(
                 f"--band {low:g}:{high:g}: percentiles go up from 0 to 100, as in 5:95"
             )
+        kinds = [
+            flag
+            for flag, given in (
+                ("--band", self.band), ("--pairs", self.pairs), ("--indices", self.indices),
+            )
+            if given
+        ]  # fmt: skip
+        if len(kinds) > 1:
+            raise UsageError(f"{' and '.join(kinds)} are different figures: take one")
+        if kinds and self.by:
+            raise UsageError(f"--by does not belong to {kinds[0]}: all runs have one colour there")
+        if (self.pairs or self.indices) and self.x:
+            raise UsageError(f"--x does not belong to {kinds[0]}, which draws over all numbers")
+        if self.x and self.by and self.x.casefold() == self.by.casefold():
+            raise UsageError(f"--x and --by are both {self.x}: one of them is enough")
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,6 +19,7 @@ import numpy as np
 
 from adamslite.errors import UsageError
 from adamslite.plots import style
+from adamslite.plots.dark import finished, themed
 from adamslite.plots.frame import framed
 from adamslite.plots.references import Beside, beside, reference_of
 from adamslite.plots.selection import (
@@ -90,6 +91,7 @@ def plot(
     channels: str | Sequence[str],
     against: Reference | Results | str | Path | None = None,
     x: str = "time",
+    dark: bool = False,
 ) -> Figure:
     """Draw channels of results.
 
@@ -102,6 +104,8 @@ def plot(
         A reference, or a file with one.
     x : str
         The channel of the horizontal axis.
+    dark : bool
+        Whether the ground is dark.
 
     Raises
     ------
@@ -112,8 +116,8 @@ def plot(
     """
     style.need_matplotlib()
     drawn = _chosen(results, [channels] if isinstance(channels, str) else channels, against, x)
-    with style.styled():
-        return _figure(drawn)
+    with themed(dark):
+        return finished(_figure(drawn), dark)
 
 
 def _chosen(

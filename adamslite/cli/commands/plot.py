@@ -32,6 +32,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--x", metavar="NAME",
         help="a channel in place of the time; of a sweep a number that varies, or a measure",
     )  # fmt: skip
+    parser.add_argument("--dark", action="store_true", help="on a dark ground")
     sweep = parser.add_argument_group("of a sweep")
     sweep.add_argument("--by", metavar="NUMBER", help="the number whose values are colours")
     sweep.add_argument(
@@ -77,7 +78,7 @@ def run(args: argparse.Namespace) -> int:
     need_writable(output, [*read, *([args.against] if args.against else [])], bool(args.output))
     try:
         names = select(results, args.channel)
-        figure = plot(results, names, reference, args.x or "time")
+        figure = plot(results, names, reference, args.x or "time", args.dark)
     except UnknownChannel as unknown:
         raise UsageError(str(unknown)) from None
     if gaps := without_numbers([curve(results, name) for name in names]):
@@ -107,7 +108,7 @@ def _sweep(args: argparse.Namespace, output: str) -> int:
         names=args.channel, x=args.x, by=args.by, band=args.band, pairs=args.pairs,
         indices=args.indices,
     )  # fmt: skip
-    save(sweep_figure(found, wanted), output)
+    save(sweep_figure(found, wanted, args.dark), output)
     done = len(found) - len(found.failed) - len(found.ahead)
     sys.stderr.write(f"{output}: {done} of {len(found)} runs\n")
     return DONE if done == len(found) else STOPPED_EARLY
