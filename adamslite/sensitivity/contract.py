@@ -71,6 +71,7 @@ class Forward(Record):
     record               (np, nt, nw + n_out) derivatives of the record
     row                  the next row of the record
     h, order             of the last step
+    stages               (3 W.size,) workspaces of the stages of a step
     grazed               events whose time has no derivative
     """
 
@@ -87,6 +88,7 @@ class Forward(Record):
     rate: Reals
     jump: Reals
     record: Reals
+    stages: Reals
     row: int
     h: float
     order: int

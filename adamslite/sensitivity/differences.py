@@ -15,7 +15,7 @@ Reference: Caracotsios, Stewart, Comput. Chem. Eng. 9 (1985) 359 (staggered dire
 
 from __future__ import annotations
 
-from adamslite.integrators.accelerations import accelerations, factor_accelerations
+from adamslite.integrators.accelerations import factor_accelerations
 from adamslite.integrators.bdf.dense_output import interpolate
 from adamslite.integrators.bdf.differences import change_step, extend_history, extrapolate, gamma
 from adamslite.integrators.contract import DONE, SINGULAR_MASS, Problem
@@ -44,8 +44,8 @@ from adamslite.native.translate import Reals, copy, native
 from adamslite.sensitivity.begin import begin_history
 from adamslite.sensitivity.contract import Forward, Tangents
 from adamslite.sensitivity.outputs import write_outputs
-from adamslite.sensitivity.rates import spun, take_state
-from adamslite.sensitivity.start import jump, project_start
+from adamslite.sensitivity.rates import spun
+from adamslite.sensitivity.start import at_start, jump
 from adamslite.sensitivity.tangents import clear, put_direction, tangent
 
 
@@ -81,30 +81,6 @@ def by_differences(P: Problem, L: Plan, D: Tangents, S: Forward) -> int:
 def restarts(before: Reals, behind: Reals) -> bool:
     """Whether the history began anew between two steps."""
     return before[TAPE_RESTARTS] != behind[TAPE_RESTARTS]
-
-
-@native
-def at_start(P: Problem, L: Plan, D: Tangents, S: Forward) -> bool:
-    """Consistent sensitivities at the start, and their records."""
-    T = P.tape
-    first, second = T.data[TAPE_HEAD:], T.data[T.width + TAPE_HEAD :]
-    copy(P.W, first, P.W.size)
-    for k in range(P.sizes.nw, P.W.size):
-        P.W[k] = second[k] if T.rows > 1 else 0.0
-    take_state(P)
-    if not accelerations(P, L, first[0], P.q, P.u, P.a, P.z, P.rd):
-        return False
-    if not factor_accelerations(P, L):
-        return False
-    for number in range(D.count):
-        project_start(P, L, D, S, S.history[number * S.room :], number)
-    S.row = 0
-    while S.row < P.times.size and P.times[S.row] <= T.data[TAPE_TIME]:
-        for number in range(D.count):
-            copy(S.y, S.history[number * S.room :], S.width)
-            write_outputs(P, L, D, S, number, S.y)
-        S.row += 1
-    return True
 
 
 @native

@@ -16,14 +16,20 @@ functions for hybrid discrete/continuous systems".
 
 from __future__ import annotations
 
-from adamslite.integrators.accelerations import accelerations, solve_accelerations
+from adamslite.integrators.accelerations import (
+    accelerations,
+    factor_accelerations,
+    solve_accelerations,
+)
 from adamslite.integrators.contract import POSITION_ROWS, Problem
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import PART
 from adamslite.integrators.projection import RATES
+from adamslite.integrators.tape_record import TAPE_HEAD, TAPE_TIME
 from adamslite.kernels.code.workspace import ACCELERATION, ALPHA
 from adamslite.native.translate import Reals, call_address, copy, native, rare, seldom
 from adamslite.sensitivity.contract import Forward, Tangents
+from adamslite.sensitivity.outputs import write_outputs
 from adamslite.sensitivity.rates import forget_rates, sensitive_accelerations, take_state
 from adamslite.sensitivity.tangents import clear, put_direction, put_signals, tangent
 
@@ -54,6 +60,31 @@ def project_start(P: Problem, L: Plan, D: Tangents, S: Forward, y: Reals, number
         solve_accelerations(P, L)
         for i in range(n):
             y[level * n + i] -= P.F[i]
+
+
+@native
+@rare
+def at_start(P: Problem, L: Plan, D: Tangents, S: Forward) -> bool:
+    """Consistent sensitivities at the start, and their records."""
+    T = P.tape
+    first, second = T.data[TAPE_HEAD:], T.data[T.width + TAPE_HEAD :]
+    copy(P.W, first, P.W.size)
+    for k in range(P.sizes.nw, P.W.size):
+        P.W[k] = second[k] if T.rows > 1 else 0.0
+    take_state(P)
+    if not accelerations(P, L, first[0], P.q, P.u, P.a, P.z, P.rd):
+        return False
+    if not factor_accelerations(P, L):
+        return False
+    for number in range(D.count):
+        project_start(P, L, D, S, S.history[number * S.room :], number)
+    S.row = 0
+    while S.row < P.times.size and P.times[S.row] <= T.data[TAPE_TIME]:
+        for number in range(D.count):
+            copy(S.y, S.history[number * S.room :], S.width)
+            write_outputs(P, L, D, S, number, S.y)
+        S.row += 1
+    return True
 
 
 @native

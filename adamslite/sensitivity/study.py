@@ -37,8 +37,9 @@ FORM = (
     "{name} is part of the form of an expression (an exponent, a constant of a call): there is no "
     "derivative by it"
 )
-ZERO = "{name} is 0, and what is 0 is left out of the equations: give it a small value"
 SENSED = "A SENSOR ended the run: derivatives where the end itself moves are not worked out"
+# A hair, as a share of the distance of the values that are taken.
+NUDGE = 1e-6
 # Turns of a part by which its angles are differentiated.
 TURN = 1e-5
 # Numbers of derivatives that are held at a time.
@@ -103,20 +104,48 @@ class Study:
         raise UsageError("derivatives are those of a dynamic analysis, and there is none")
 
     def directions(self, named: list[Named]) -> tuple[System, list[Direction]]:
-        """Derivatives of the arrays by each number."""
-        system, base = self.snapshot(self.kernels)
-        return system, [self._direction(system, base, each) for each in named]
+        """Derivatives of the arrays by each number.
 
-    def _direction(self, system: System, base: Snapshot, number: Named) -> Direction:
-        h = SHARE * (abs(number.value) or self._scale(number))
-        around = {}
+        What is zero, as the distance of a marker from its mass centre, is left out of equations. A
+        number that moves it away from there is put a hair beside its value first.
+
+        Raises
+        ------
+        UsageError
+            When a number decides more than values.
+        """
+        system, base = self.snapshot(self.kernels)
+        around = [self._around(each) for each in named]
+        beside = {
+            each.name: each.value + NUDGE * self._step(each)
+            for each, found in zip(named, around, strict=True)
+            if any(one.names != base.names for one in found.values())
+        }
+        if beside:
+            self.deck = self.deck.with_values(beside)
+            self.kernels = of_deck(self.kernels, self.deck)
+            system, base = self.snapshot(self.kernels)
+            named = self.named(each.name for each in named)
+            around = [self._around(each) for each in named]
+        for each, found in zip(named, around, strict=True):
+            if any(one.names != base.names for one in found.values()):
+                raise UsageError(FORM.format(name=each.name))
+        pairs = zip(named, around, strict=True)
+        return system, [direction(system, base, found, self._step(each)) for each, found in pairs]
+
+    def _around(self, number: Named) -> dict[int, Snapshot]:
+        """Snapshots beside the value of a number."""
+        h, found = self._step(number), {}
         for k in STENCIL:
             deck = self.deck.with_values({number.name: number.value + k * h})
-            around[k] = self.snapshot(of_deck(self.kernels, deck))[1]
-            if around[k].names != base.names:
-                text = FORM if number.value else ZERO
-                raise UsageError(text.format(name=number.name))
-        return direction(system, base, around, h)
+            found[k] = self.snapshot(of_deck(self.kernels, deck))[1]
+        return found
+
+    def _step(self, number: Named) -> float:
+        """Distance of the values: a share of it, or of the numbers beside a zero."""
+        scale = self._scale(number)
+        size = abs(number.value)
+        return SHARE * (size if size > NUDGE * scale else scale)
 
     def _scale(self, number: Named) -> float:
         """What a zero is small against: the numbers beside it."""

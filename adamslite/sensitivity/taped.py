@@ -16,6 +16,7 @@ from adamslite.equations.engine import address_of
 from adamslite.errors import UsageError
 from adamslite.integrators.bdf.history import room
 from adamslite.integrators.contract import AUDIT, DONE
+from adamslite.integrators.radau.history import Y_ROWS
 from adamslite.integrators.tape_record import TAPE_HEAD
 from adamslite.results.outcomes import Outcome
 from adamslite.sensitivity.begin import ROWS
@@ -26,7 +27,10 @@ if TYPE_CHECKING:
     from adamslite.equations.system import System
 
 #: By method: the native function that follows its tape.
-FORMULAS = {"GSTIFF": "adamslite.sensitivity.differences.by_differences"}
+FORMULAS = {
+    "GSTIFF": "adamslite.sensitivity.differences.by_differences",
+    "RADAU": "adamslite.sensitivity.stages.by_stages",
+}
 WITHOUT = "derivatives are worked out along the steps of {known}; {method} is none of them"
 SEVERAL = (
     "derivatives are those of one dynamic analysis: here a second one follows (several SIMULATE, "
@@ -70,7 +74,7 @@ class Taped(Session):
         beginning = Beginning(system)
         while True:
             make_ready(system, times, apart, settings)
-            lay_tape(system, rows)
+            lay_tape(system, rows, settings.method)
             outcome = integrate(system, settings, self.whole)
             system.audit.on = False
             if not system.tape.full:
@@ -102,16 +106,23 @@ def allowed(choice: MethodChoice) -> MethodChoice:
     raise UsageError(WITHOUT.format(known=", ".join(FORMULAS), method=method))
 
 
-def lay_tape(system: System, rows: int) -> None:
+def lay_tape(system: System, rows: int, method: str) -> None:
     """Have the run that is ready keep its states."""
     tape, audit = system.tape, system.audit
-    tape.rows, tape.kept, tape.full = 0, 0, False
+    tape.rows, tape.full = 0, False
+    tape.kept = _stages(system) if method == "RADAU" else 0
     tape.width = TAPE_HEAD + system.W.size + 9 * len(system.model.bodies) + tape.kept
     tape.data = np.zeros(rows * tape.width)
     for name in ("previous", "previous_before"):
         setattr(audit, name, np.zeros(system.W.size))
     audit.on = True
     system.run(AUDIT)
+
+
+def _stages(system: System) -> int:
+    """How many numbers of the history are those of the stages of a step."""
+    z = system.m + system.nv + system.ns + system.holonomic
+    return Y_ROWS * (2 * system.n + system.ns) + 3 * z
 
 
 def followed(system: System, method: str, found: Iterable[Direction]) -> np.ndarray:
@@ -126,14 +137,15 @@ def followed(system: System, method: str, found: Iterable[Direction]) -> np.ndar
     count, w = collected.record.count, 2 * system.n + system.ns
     size = system.nw + system.sizes.n_out
     made = Forward.zeros()
-    made.width, made.room = w, room(w)
+    made.width, made.room = w, max(room(w), 8 * w + 3 * (system.nz + system.holonomic))
     history = np.zeros((count, made.room))
     history[:, :w] = collected.start
     arrays = {
         "history": history.ravel(), "y": np.zeros(4 * w + 1), "a": np.zeros(system.n + 1),
         "start": np.zeros(count * ROWS * w + 1), "state": np.zeros((ROWS + 2) * w),
         "z": np.zeros(system.m + system.nv + 1), "sd": np.zeros(system.ns + 1),
-        "guard": np.zeros(system.W.size), "rate": np.zeros(w), "jump": np.zeros(w),
+        "stages": np.zeros(3 * system.W.size), "guard": np.zeros(system.W.size),
+        "rate": np.zeros(w), "jump": np.zeros(w),
         "record": np.zeros(count * len(system.times) * size + 1),
     }  # fmt: skip
     for name, value in arrays.items():

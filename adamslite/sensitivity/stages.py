@@ -1,0 +1,240 @@
+"""Sensitivities by the three stages of the Radau formula, on the steps of the run.
+
+The formula of RADAU (:mod:`adamslite.integrators.radau.stages`) is applied to the derivatives of
+the equations,
+
+    y'_i = sum_j w_ij (y_j - y_0)/h,    F_q dq + F_u du + F_a da + F_z dz + F_s' ds' + F_p = 0
+
+at the stages of the run.  Derivatives differ from stage to stage, so that the systems do not fall
+apart in modes exactly: as in the run the matrices at the middle stage serve for increments, until
+these are round-off against the sensitivities, or nothing against ERROR.  Turns are rates of
+theta' = dw + w x theta.
+"""
+
+from __future__ import annotations
+
+from adamslite.integrators.accelerations import factor_accelerations
+from adamslite.integrators.contract import DONE, SINGULAR_MASS, Problem
+from adamslite.integrators.implicit.formulation import equations_kept, is_stabilised
+from adamslite.integrators.linalg.plan import HUGE, Plan
+from adamslite.integrators.motion_equations import project_on_constraints, track
+from adamslite.integrators.radau.coefficients import INVERSE, NODE
+from adamslite.integrators.radau.control import Control
+from adamslite.integrators.radau.dense_output import collocated
+from adamslite.integrators.radau.history import Z_ROWS
+from adamslite.integrators.radau.stages import (
+    put_stage,
+    radau_jacobian,
+    radau_matrices,
+    stage_increments,
+    stage_z,
+)
+from adamslite.integrators.stepping.output import WITHIN
+from adamslite.integrators.tape_record import (
+    AT_STEP,
+    TAPE_HEAD,
+    TAPE_KIND,
+    TAPE_STEP,
+    TAPE_TIME,
+)
+from adamslite.native.translate import Reals, copy, native
+from adamslite.sensitivity.contract import Forward, Tangents
+from adamslite.sensitivity.outputs import write_outputs
+from adamslite.sensitivity.rates import spun
+from adamslite.sensitivity.start import at_start, jump
+from adamslite.sensitivity.tangents import put_direction, tangent
+
+# Rows of a history: the start of the step, three stages, their rates, and behind them z.
+RATE_ROWS, ROWS = 3, 7
+# Increments stop at this share of ERROR, and of what they are against; and after so many.
+SHARE, LEAST, MOST = 1e-2, 1e-12, 20
+# A step is predicted by the polynomial of one that is not much shorter.
+LONGER = 4.0
+
+
+@native
+def by_stages(P: Problem, L: Plan, D: Tangents, S: Forward) -> int:
+    """Follow the tape; the record of derivatives is filled."""
+    T = P.tape
+    if not at_start(P, L, D, S):
+        return SINGULAR_MASS
+    S.h = 0.0
+    for row in range(1, T.rows):
+        here = T.data[row * T.width :]
+        if here[TAPE_KIND] != AT_STEP:
+            jump(P, L, D, S, T.data[(row - 1) * T.width + TAPE_HEAD :], here[TAPE_HEAD:])
+            S.h = 0.0
+            continue
+        if not lay_stages(P, L, S, here):
+            return SINGULAR_MASS
+        for number in range(D.count):
+            if not solve_stages(P, L, D, S, number, here[TAPE_STEP]):
+                return SINGULAR_MASS
+        if not record(P, L, D, S, here):
+            return SINGULAR_MASS
+        for number in range(D.count):
+            H = S.history[number * S.room :]
+            copy(H[ROWS * S.width + 3 * z_width(P) :], H, S.width)
+            copy(H, H[3 * S.width :], S.width)
+        S.h = here[TAPE_STEP]
+        copy(P.W, here[TAPE_HEAD:], P.W.size)
+        track(P)
+    return DONE
+
+
+@native
+def z_width(P: Problem) -> int:
+    """Multipliers, variables, states and multipliers of velocity rows of a stage."""
+    return P.sizes.m + P.sizes.nv + P.sizes.ns + P.sizes.holonomic
+
+
+@native
+def lay_stages(P: Problem, L: Plan, S: Forward, here: Reals) -> bool:
+    """Workspaces of the stages of the run, and the factored matrices."""
+    C = Control(P.control)
+    size, h = P.W.size, here[TAPE_STEP]
+    C.t = here[TAPE_TIME] - h
+    copy(P.W, here[TAPE_HEAD:], size)
+    copy(P.base, here[TAPE_HEAD + size :], 9 * P.sizes.nb)
+    copy(P.history, here[TAPE_HEAD + size + 9 * P.sizes.nb :], P.tape.kept)
+    for stage in range(3):
+        put_stage(P, stage + 1, h)
+        copy(S.stages[stage * size :], P.W, size)
+    radau_jacobian(P, L, h)
+    return radau_matrices(P, L, h)
+
+
+@native
+def solve_stages(P: Problem, L: Plan, D: Tangents, S: Forward, number: int, h: float) -> bool:
+    """Sensitivities at the stages; False when increments do not shrink."""
+    H, w = S.history[number * S.room :], S.width
+    guess(P, S, H, h)
+    last = HUGE
+    for turn in range(MOST):
+        motion(P, S, H, h)
+        stage_tangents(P, D, S, number, H)
+        stage_increments(P, L)
+        size = apply(P, H, w)
+        limit = max(SHARE * P.settings.error, LEAST) * scale(P, H)
+        if size <= limit or (turn > 2 and size > 0.5 * last):
+            motion(P, S, H, h)
+            return size <= 1e3 * limit
+        last = size
+    motion(P, S, H, h)
+    return True
+
+
+@native
+def guess(P: Problem, S: Forward, H: Reals, h: float) -> None:
+    """Stages on the polynomial of the last step, else where it ended; z as it was."""
+    w = S.width
+    if S.h > 0.0 and h < LONGER * S.h:
+        old = H[ROWS * w + 3 * z_width(P) :]
+        for stage in range(3):
+            between(P, old, H, w, 1.0 + P.tableau[NODE + stage] * h / S.h, S.y[stage * w :])
+        copy(H[w:], S.y, 3 * w)
+    else:
+        for stage in range(3):
+            copy(H[(1 + stage) * w :], H, w)
+
+
+@native
+def between(P: Problem, start: Reals, H: Reals, w: int, x: float, y: Reals) -> None:
+    """The polynomial through a start and the stages in ``H`` at the share ``x`` of the step."""
+    a, b = P.tableau[NODE], P.tableau[NODE + 1]
+    f0 = (x - a) * (x - b) * (x - 1.0) / (-a * b)
+    f1 = x * (x - b) * (x - 1.0) / (a * (a - b) * (a - 1.0))
+    f2 = x * (x - a) * (x - 1.0) / (b * (b - a) * (b - 1.0))
+    f3 = x * (x - a) * (x - b) / ((1.0 - a) * (1.0 - b))
+    for i in range(w):
+        y[i] = f0 * start[i] + f1 * H[w + i] + f2 * H[2 * w + i] + f3 * H[3 * w + i]
+
+
+@native
+def rate_rows(P: Problem, H: Reals, w: int, first: int, last: int, h: float) -> None:
+    """y' of the stages, of entries ``first`` .. ``last``."""
+    for stage in range(3):
+        row, d = INVERSE + 3 * stage, H[(1 + RATE_ROWS + stage) * w :]
+        a, b, c = P.tableau[row] / h, P.tableau[row + 1] / h, P.tableau[row + 2] / h
+        for i in range(first, last):
+            s = H[i]
+            d[i] = a * (H[w + i] - s) + b * (H[2 * w + i] - s) + c * (H[3 * w + i] - s)
+
+
+@native
+def motion(P: Problem, S: Forward, H: Reals, h: float) -> None:
+    """Rates and velocities of the stages from places, turns and states."""
+    n, w, size = P.sizes.n, S.width, P.W.size
+    rate_rows(P, H, w, 0, n, h)
+    rate_rows(P, H, w, 2 * n, w, h)
+    for stage in range(3):
+        y, d = H[(1 + stage) * w :], H[(1 + RATE_ROWS + stage) * w :]
+        copy(P.W, S.stages[stage * size :], size)
+        spun(P, y, d, -1.0, y[n:])
+        if is_stabilised(P):
+            z = H[ROWS * w + stage * z_width(P) + P.sizes.m + P.sizes.nv + P.sizes.ns :]
+            project_on_constraints(P, z, P.F)
+            for i in range(n):
+                y[n + i] += P.F[i]
+    rate_rows(P, H, w, n, 2 * n, h)
+
+
+@native
+def stage_tangents(P: Problem, D: Tangents, S: Forward, number: int, H: Reals) -> None:
+    """What the equations at the stages are off by, where increments are solved for."""
+    n, w, nz, size, at = P.sizes.n, S.width, P.sizes.nz, P.W.size, stage_z(P, Z_ROWS)
+    for stage in range(3):
+        y, d = H[(1 + stage) * w :], H[(1 + RATE_ROWS + stage) * w :]
+        copy(P.W, S.stages[stage * size :], size)
+        z = H[ROWS * w + stage * z_width(P) :]
+        put_direction(P, D, y, d[n:], z, d[2 * n :], 0.0)
+        tangent(P, D, number, equations_kept(P), P.F)
+        copy(P.history[at + stage * nz :], P.F, nz)
+
+
+@native
+def apply(P: Problem, H: Reals, w: int) -> float:
+    """Subtract the increments; the largest of places, turns and states."""
+    n, ns, first, nz = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv, P.sizes.nz
+    R, largest = P.history[stage_z(P, Z_ROWS) :], 0.0
+    for stage in range(3):
+        y, z, dz = H[(1 + stage) * w :], H[ROWS * w + stage * z_width(P) :], R[stage * nz :]
+        for i in range(n):
+            y[i] -= dz[i]
+            largest = max(largest, abs(dz[i]))
+        for k in range(nz - n):
+            z[k] -= dz[n + k]
+        for k in range(ns):
+            y[2 * n + k] -= dz[n + first + k]
+            largest = max(largest, abs(dz[n + first + k]))
+    return largest
+
+
+@native
+def scale(P: Problem, H: Reals) -> float:
+    """What increments are small against: the largest of the start and the stages."""
+    w, largest = 2 * P.sizes.n + P.sizes.ns, 1e-300
+    for row in range(4):
+        for i in range(P.sizes.n):
+            largest = max(largest, abs(H[row * w + i]))
+        for k in range(P.sizes.ns):
+            largest = max(largest, abs(H[row * w + 2 * P.sizes.n + k]))
+    return largest
+
+
+@native
+def record(P: Problem, L: Plan, D: Tangents, S: Forward, here: Reals) -> bool:
+    """Every output time of the step; the record of the run has its states."""
+    t, h, size = here[TAPE_TIME], here[TAPE_STEP], P.sizes.nw + P.sizes.n_out
+    while S.row < P.times.size and P.times[S.row] <= t + WITHIN * h:
+        copy(P.W, here[TAPE_HEAD:], P.W.size)
+        copy(P.W, P.record[S.row * size :], P.sizes.nw)
+        if not factor_accelerations(P, L):
+            return False
+        for number in range(D.count):
+            H = S.history[number * S.room :]
+            share = min(1.0, 1.0 + (P.times[S.row] - t) / h)
+            collocated(P, H, S.width, share, S.y)
+            write_outputs(P, L, D, S, number, S.y)
+        S.row += 1
+    return True
