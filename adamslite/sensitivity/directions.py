@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -34,12 +34,13 @@ STENCIL = (-2, -1, 1, 2)
 class Snapshot:
     """The arrays of a model about to run.
 
-    ``names``: of the shapes of its kernels; ``reals``: those of each group; ``arrays``: masses,
-    inertia, gravity; ``places`` (nb, 3), ``attitudes`` (nb, 3, 3), velocities ``u`` (n,) and states
-    ``s`` (ns,).
+    ``names``: of the shapes of its kernels; ``tables``: of each group; ``reals``: those of each
+    group; ``places`` (nb, 3), ``attitudes`` (nb, 3, 3), velocities ``u`` (n,) and states ``s``
+    (ns,).
     """
 
     names: list[str]
+    tables: list[bytes]
     reals: list[np.ndarray]
     mass: np.ndarray
     inertia: np.ndarray
@@ -62,6 +63,8 @@ class Snapshot:
         first = system.m + system.nv
         return cls(
             [group.name for group in system.kernels.groups],
+            [b"".join(map(_in_bytes, group.instances.columns.tables))
+             for group in system.kernels.groups],
             [each.copy() for each in system.instances.keep[1::2]],
             system.mass.copy(), system.inertia.copy(), system.gravity.copy(),
             np.array([system.W[o : o + 3] for o in at]).reshape(-1, 3),
@@ -111,6 +114,10 @@ def direction(system: System, base: Snapshot, around: dict[int, Snapshot], h: fl
     found = Direction(slope("mass"), slope("inertia"), slope("gravity"), start)
     found.pieces = [*_pieces(system, base, around, h)]
     return found
+
+
+def _in_bytes(tables: Iterable[Any]) -> bytes:
+    return b"".join(each.data.tobytes() for each in tables)
 
 
 def _slope(around: dict[int, np.ndarray], h: float) -> np.ndarray:

@@ -106,7 +106,7 @@ def lay_stages(P: Problem, L: Plan, S: Forward, here: Reals) -> bool:
 
 @native
 def solve_stages(P: Problem, L: Plan, D: Tangents, S: Forward, number: int, h: float) -> bool:
-    """Sensitivities at the stages; False when increments do not shrink."""
+    """Sensitivities at the stages; False when they are no numbers."""
     H, w = S.history[number * S.room :], S.width
     guess(P, S, H, h)
     last = HUGE
@@ -115,10 +115,11 @@ def solve_stages(P: Problem, L: Plan, D: Tangents, S: Forward, number: int, h: f
         stage_tangents(P, D, S, number, H)
         stage_increments(P, L)
         size = apply(P, H, w)
+        if not size < HUGE:
+            return False
         limit = max(SHARE * P.settings.error, LEAST) * scale(P, H)
         if size <= limit or (turn > 2 and size > 0.5 * last):
-            motion(P, S, H, h)
-            return size <= 1e3 * limit
+            break
         last = size
     motion(P, S, H, h)
     return True

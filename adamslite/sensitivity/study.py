@@ -37,6 +37,7 @@ FORM = (
     "{name} is part of the form of an expression (an exponent, a constant of a call): there is no "
     "derivative by it"
 )
+TABLE = "{name} is a number of a table: there is no derivative by it yet"
 SENSED = "A SENSOR ended the run: derivatives where the end itself moves are not worked out"
 # A hair, as a share of the distance of the values that are taken.
 NUDGE = 1e-6
@@ -130,6 +131,8 @@ class Study:
         for each, found in zip(named, around, strict=True):
             if any(one.names != base.names for one in found.values()):
                 raise UsageError(FORM.format(name=each.name))
+            if any(one.tables != base.tables for one in found.values()):
+                raise UsageError(TABLE.format(name=each.name))
         pairs = zip(named, around, strict=True)
         return system, [direction(system, base, found, self._step(each)) for each, found in pairs]
 
