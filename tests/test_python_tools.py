@@ -31,7 +31,7 @@ FUNCTIONS = {
     "check": al.check, "solve": al.simulate, "diff": al.compare, "verify": al.verify,
     "linear": al.linearize, "chart": al.chart, "cable": al.cable, "cache": al.cache,
     "fit": al.fit, "fmt": al.fmt, "help": al.help, "names": al.names, "plot": al.plot,
-    "sweep": al.sweep, "view": al.view, "indices": al.indices,
+    "sens": al.sensitivities, "sweep": al.sweep, "view": al.view, "indices": al.indices,
 }  # fmt: skip
 
 

@@ -10,6 +10,7 @@
     adamslite names  DECK [PATTERN ...]     numbers of a deck by name, for --set
     adamslite sweep  DECK NAME=VALUES ...   run it many times with other numbers
     adamslite indices RUNS [MEASURE ...]    Sobol indices of a sweep
+    adamslite sens   DECK --of MEASURE --by NAME  derivatives of a run by numbers of its deck
     adamslite fit    DECK MEASURED --by NAME ...  fit numbers of a deck to a measurement
     adamslite chart  DECK [COMMANDS.acf]    what accuracy costs with each integrator
     adamslite cable  SPEC.toml              write the deck of a cable scene from a short description
@@ -56,6 +57,7 @@ COMMANDS = {
     "names": "numbers of a deck by name, with their values and places",
     "sweep": "run a deck many times with other numbers",
     "indices": "Sobol indices of a sweep: which number is behind the variance of a measure",
+    "sens": "derivatives of a run by numbers of its deck",
     "fit": "fit numbers of a deck to a measurement",
     "fmt": "put decks and command files into the canonical layout",
     "lsp": (

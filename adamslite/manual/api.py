@@ -25,6 +25,7 @@ RETURNED = (
     "results.linearization.Linearization",
     "verification.verification.Verdict",
     "sweeps.record.Sweep",
+    "sensitivity.record.Sensitivities",
     "sweeps.saltelli.SobolIndices",
     "fitting.record.Fit",
     "verification.work_precision.Chart",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -54,6 +54,15 @@ class Sensitivities:
         """
         columns = [name.casefold() for name in self.results.names]
         return self.curves[self._number(by), :, _found(channel, columns, self.results.names)]
+
+    @property
+    def histories(self) -> Results:
+        """The curves as results, columns ``PART/2.x by SPRINGDAMPER/1.K``."""
+        pairs = [(k, j) for k in range(len(self.results.names)) for j in range(len(self.by))]
+        names = tuple(f"{self.results.names[k]} by {self.by[j]}" for k, j in pairs)
+        values = np.array([self.curves[j, :, k] for k, j in pairs]).T
+        shaped = np.ascontiguousarray(values.reshape(len(self.time), len(pairs)))
+        return replace(self.results, names=names, values=shaped)
 
     def __getitem__(self, asked: tuple[str, str]) -> float:
         """The derivative of a measure by a number."""

@@ -1,0 +1,74 @@
+"""derivatives of a run by numbers of its deck
+
+--of names what is differentiated: a measure ("max REQUEST/1.F2"), the value of a column at a time
+(PART/2.x@end, PART/2.x@0.5), or a column whose history of derivatives is wanted. --by names the
+numbers (`adamslite names` lists them). A table of derivatives is printed; -o OUT writes the
+histories of derivatives of all these columns, `PART/2.x by SPRINGDAMPER/1.K`. They are worked out
+along the steps of the run, by GSTIFF or RADAU, and are about as exact as the run itself.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+from adamslite.cli.commands.codes import DONE, STOPPED_EARLY
+from adamslite.run_flags import add_user_flag, add_values_flag, count, positive
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments of `adamslite sens`."""
+    parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
+    parser.add_argument(
+        "--of", metavar="MEASURE", nargs="+", action="extend", required=True,
+        help="'max REQUEST/1.F2', PART/2.x@end, PART/2.x; words are max, min, absmax, range, mean, "
+        "rms, first, final; may be repeated",
+    )  # fmt: skip
+    parser.add_argument(
+        "--by", metavar="NAME", nargs="+", action="extend", required=True,
+        help="numbers: SPRINGDAMPER/1.K, L_0; may be repeated",
+    )  # fmt: skip
+    parser.add_argument("-o", "--output", metavar="OUT", help="file of histories (.csv, .nc, ...)")
+    parser.add_argument(
+        "--commands", metavar="COMMANDS.acf", type=Path,
+        help="command file; without it the .acf beside the deck",
+    )  # fmt: skip
+    add_user_flag(parser)
+    add_values_flag(parser)
+    flags = parser.add_argument_group("run", "these win over the deck and the command file")
+    flags.add_argument("--end", type=positive, metavar="T", help="end time")
+    flags.add_argument("--steps", type=count, metavar="N", help="number of output steps")
+    flags.add_argument("--integrator", type=str.upper, metavar="NAME", help="GSTIFF or RADAU")
+    flags.add_argument("--formulation", type=str.upper, metavar="FORM", help="I3 or SI2, of GSTIFF")
+    flags.add_argument("--error", type=positive, metavar="TOL", help="integration error per step")
+    flags.add_argument("--hmax", type=positive, metavar="H", help="largest step")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Work derivatives out and print them; return the exit code."""
+    from adamslite.errors import RunFailed
+    from adamslite.outputs.whole_files import need_writable
+    from adamslite.results.formats import format_of
+    from adamslite.scene import load_scene
+    from adamslite.sensitivity.study import sensitivities
+
+    scene = load_scene(args.deck, args.commands, args.user, args.values)
+    if args.output:
+        format_of(args.output)
+        need_writable(args.output, scene.read, True)
+    flags = ("end", "steps", "integrator", "formulation", "error", "hmax")
+    options = {name: getattr(args, name) for name in flags if getattr(args, name) is not None}
+    try:
+        found = sensitivities(scene.deck, args.by, args.of, scene.commands, **options)
+    except RunFailed as fault:
+        sys.stderr.write(f"adamslite: {fault}\n")
+        return STOPPED_EARLY
+    if len(found.measures):
+        sys.stdout.write(str(found))
+    for name, note in found.notes.items():
+        sys.stderr.write(f"{name}: {note}\n")
+    if args.output:
+        found.histories.save(args.output)
+        sys.stderr.write(f"{args.output}: histories of derivatives\n")
+    elif not len(found.measures):
+        sys.stderr.write("columns have histories of derivatives: -o OUT writes them\n")
+    return DONE
