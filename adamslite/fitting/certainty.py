@@ -22,6 +22,7 @@ import numpy as np
 PART = 0.05
 #: A singular value counts where it is so many times larger than the error of the Jacobian.
 CLEAR = 3.0
+SILENT = "no measured channel changes with it by more than the runs are off"
 #: Even exact derivatives are no better than this.
 ROUND_OFF = 1e-9
 
@@ -45,9 +46,7 @@ class Combination:
     def __str__(self) -> str:
         names = [*self.parts]
         if len(names) == 1:
-            how = "no measured channel changes with it" if self.is_untold else (
-                f"its standard error is {100.0 * self.error:.3g} %"
-            )  # fmt: skip
+            how = SILENT if self.is_untold else f"its standard error is {100 * self.error:.3g} %"
             return f"the measurement cannot tell {names[0]}: {how}"
         listed = f"{', '.join(names[:-1])} and {names[-1]}"
         changes = ", ".join(f"{share:+.2g} %" for share in self.parts.values())

@@ -17,7 +17,8 @@ from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command
 from adamslite.errors import RunFailed, UsageError
 from adamslite.fitting.certainty import certainty
-from adamslite.fitting.curves import Curves, Failed, Runs, error_of, prepared
+from adamslite.fitting.curves import Failed, Runs, error_of, prepared
+from adamslite.fitting.derivatives import Curves, Derivatives
 from adamslite.fitting.least_squares import STAGES, Search
 from adamslite.fitting.measured import Measured, amplitudes, measured_of
 from adamslite.fitting.parameters import Bounds, parameters_of
@@ -93,19 +94,22 @@ def fit(
         raise UsageError(
             f"{measured.name}: {measured.count} values do not determine {len(found)} numbers"
         )
-    x, sigmas, stopped = _solved(runs, measured)
-    return _described(runs, measured, before, x, sigmas, stopped, [*measured.notes, *notes])
+    derivatives = Derivatives(runs, measured)
+    x, sigmas, stopped = _solved(derivatives)
+    search = Search(derivatives, sigmas)
+    return _described(search, before, x, stopped, [*measured.notes, *notes])
 
 
-def _solved(runs: Runs, measured: Measured) -> tuple[np.ndarray, np.ndarray, str]:
+def _solved(derivatives: Derivatives) -> tuple[np.ndarray, np.ndarray, str]:
     """Coordinates of the best fit, what residuals are divided by, and why it ended early."""
+    runs, measured = derivatives.runs, derivatives.measured
     spreads = amplitudes(measured)
     banded = measured.bands.any(axis=0)
     sigmas = np.where(measured.bands > 0.0, measured.bands, spreads)
-    x, stopped = _searched(Search(runs, measured, sigmas), spreads)
+    x, stopped = _searched(Search(derivatives, sigmas), spreads)
     noise = np.where(banded, 1.0, spreads)
     for _ in range(0 if banded.all() else MOST_ROUNDS):
-        search = Search(runs, measured, sigmas)
+        search = Search(derivatives, sigmas)
         values = search.values(x)
         rms = np.maximum(_rms(runs.curves(values, measured), measured), LEAST_NOISE * spreads)
         changed = np.abs(rms / noise - 1.0)[~banded].max()
@@ -113,7 +117,7 @@ def _solved(runs: Runs, measured: Measured) -> tuple[np.ndarray, np.ndarray, str
         sigmas = np.where(measured.bands > 0.0, measured.bands, noise)
         if changed < SETTLED or banded.size == 1 or stopped:
             break
-        x, stopped = Search(runs, measured, sigmas).solve(x)
+        x, stopped = Search(derivatives, sigmas).solve(x)
     return x, sigmas, stopped
 
 
@@ -142,20 +146,15 @@ def _left(search: Search, x: np.ndarray, spreads: np.ndarray) -> float:
 
 
 def _described(
-    runs: Runs,
-    measured: Measured,
-    before: Results,
-    x: np.ndarray,
-    sigmas: np.ndarray,
-    stopped: str,
-    notes: list[str],
+    search: Search, before: Results, x: np.ndarray, stopped: str, notes: list[str]
 ) -> Fit:
     """The record of a fit: how sure the numbers are, and what there is to say."""
-    search, names = Search(runs, measured, sigmas), [each.name for each in runs.parameters]
+    runs, measured, sigmas = search.runs, search.measured, search.sigmas
+    names = [each.name for each in runs.parameters]
     values = np.array(search.values(x))
     sizes = np.array([abs(v) or p.scale for p, v in zip(runs.parameters, values, strict=True)])
     results = runs.results(values.tolist())
-    curves, tight = _both(runs, measured, values, error_of(results))
+    curves, tight = _both(search.derivatives, values, error_of(results))
     residuals = search.residuals(curves.values)
     jacobian, other = (
         _relative(each, measured, sigmas, sizes) for each in (curves, tight or curves)
@@ -178,20 +177,18 @@ def _described(
         parameters=tuple(runs.parameters), values=values, errors=errors, certainty=found,
         residuals=tuple(_residuals(curves.values, measured, results)), deck=fitted,
         results=results, before=before, measured=measured, curves=curves.values, sigmas=sigmas,
-        runs=runs.count, derivatives=runs.derivatives, notes=tuple(filter(None, notes)),
+        runs=runs.count, derivatives=str(search.derivatives), notes=tuple(filter(None, notes)),
         stopped=stopped,
     )  # fmt: skip
 
 
 def _both(
-    runs: Runs, measured: Measured, values: np.ndarray, error: float
+    derivatives: Derivatives, values: np.ndarray, error: float
 ) -> tuple[Curves, Curves | None]:
     """Curves and derivatives at the end, and with a smaller ERROR; None where those runs fail."""
-    own = runs.curves_and_derivatives(values.tolist(), measured)
+    own = derivatives.at(values.tolist())
     try:
-        return own, runs.curves_and_derivatives(
-            values.tolist(), measured, WIDER, error=TIGHTER * error
-        )
+        return own, derivatives.at(values.tolist(), WIDER, error=TIGHTER * error)
     except Failed:
         return own, None
 

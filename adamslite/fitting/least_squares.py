@@ -17,11 +17,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from adamslite.fitting.curves import Curves, Failed, Runs
+from adamslite.fitting.curves import Failed, Runs
+from adamslite.fitting.derivatives import Curves, Derivatives
 from adamslite.fitting.measured import Measured
 
 #: Changes of the sum of squares, and of coordinates, below which nothing is gained any more.
-LEAST_GAIN, LEAST_STEP = 1e-9, 1e-9
+LEAST_GAIN, LEAST_STEP = 1e-8, 1e-8
 #: So many trial points at most.
 MOST_TRIALS = 100
 #: What coordinates are held to their start with, as a share of the largest singular value.
@@ -49,19 +50,28 @@ class Search:
 
     Parameters
     ----------
-    runs : Runs
-    measured : Measured
+    derivatives : Derivatives
+        Of the runs of the fit.
     sigmas : (nt, nc) array
         What residuals are divided by.
     """
 
-    runs: Runs
-    measured: Measured
+    derivatives: Derivatives
     sigmas: np.ndarray
     known: dict[tuple[float, ...], Any] = field(default_factory=dict)
     """Curves by values, or the :class:`Failed` of a run."""
     last: tuple[tuple[float, ...], np.ndarray] | None = None
     """The last Jacobian, and its values."""
+
+    @property
+    def runs(self) -> Runs:
+        """The runs of the fit."""
+        return self.derivatives.runs
+
+    @property
+    def measured(self) -> Measured:
+        """What is fitted."""
+        return self.derivatives.measured
 
     def values(self, x: np.ndarray) -> tuple[float, ...]:
         """The numbers of coordinates."""
@@ -95,7 +105,7 @@ class Search:
         """The Jacobian (n, np)."""
         values = self.values(x)
         if self.last is None or self.last[0] != values:
-            curves = self.runs.curves_and_derivatives(values, self.measured)
+            curves = self.derivatives.at(values)
             self.last = values, self.jacobian(x, curves)
         return self.last[1]
 
