@@ -278,6 +278,7 @@ def test_everything_stands_out_on_white_and_on_a_dark_ground(wish: dict[str, Any
     sweep = made(kind, measures(values), values, failed=failed)
     for dark in (False, True):
         figure = sweep.plot(**wish, dark=dark)
+        boxes(figure)  # numbers beside axes are made when a figure is drawn
         ground = figure.get_facecolor()
         assert (luminance(ground) < 0.02) is dark
         shown = [text for text in figure.findobj(Text) if text.get_text() and text.get_visible()]

@@ -37,8 +37,6 @@ def themed(dark: bool) -> AbstractContextManager[None]:
 def finished(figure: Figure, dark: bool) -> Figure:
     """A figure that was made in these settings; on a dark ground its own colours are changed."""
     if dark:
-        for axes in figure.axes:
-            axes.tick_params(which="both", color=PALE, labelcolor=INK, grid_color=RULE)
         for artist in figure.findobj():
             _recolour(artist)
     return figure

@@ -92,11 +92,11 @@ def _map() -> Any:
     return ListedColormap(colormaps["cividis"](np.linspace(*seen, 256)))
 
 
-def mark_failed(axis: Axes, places: np.ndarray, colours: Any = style.RED) -> None:
+def mark_failed(axis: Axes, places: np.ndarray) -> None:
     """Crosses on the horizontal axis: runs that failed, at places of it."""
     if len(places):
         axis.scatter(
-            places, np.zeros(len(places)), marker="x", s=34, c=colours, linewidths=1.4,
+            places, np.zeros(len(places)), marker="x", s=34, c=style.RED, linewidths=1.4,
             transform=axis.get_xaxis_transform(), zorder=6, clip_on=False,
         )  # fmt: skip
         axis.update_datalim(np.column_stack([places, places]), updatey=False)

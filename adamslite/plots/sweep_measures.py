@@ -86,7 +86,7 @@ def curves(runs: Runs, columns: Sequence[Column], x: Column, by: Column | None) 
             marker = "o" if len(order) <= MARKED_POINTS else ""
             axis.plot(x.values[order], column.values[order], color=colour, marker=marker,
                       markersize=3.5, linewidth=1.5)  # fmt: skip
-        mark_failed(axis, x.values[runs.failed], _colours_of_failed(runs, scale))
+        mark_failed(axis, x.values[runs.failed])
     scale.explain(figure, axes)
     return figure
 
@@ -101,11 +101,6 @@ def _groups(runs: Runs, x: Column) -> list[np.ndarray]:
     group = group.reshape(-1)
     order = np.argsort(group, kind="stable")
     return np.split(every[order], np.flatnonzero(np.diff(group[order])) + 1)
-
-
-def _colours_of_failed(runs: Runs, scale: Scale) -> object:
-    by = scale.column
-    return scale.colours(by.values[runs.failed]) if by and len(runs.failed) else style.RED
 
 
 def bands(
@@ -160,7 +155,7 @@ def scatter(runs: Runs, columns: Sequence[Column], x: Column, by: Column | None)
     for axis, column in zip(axes, columns, strict=True):
         _points(axis, x, column, scale)
         if is_number:
-            mark_failed(axis, x.values[runs.failed], _colours_of_failed(runs, scale))
+            mark_failed(axis, x.values[runs.failed])
     scale.explain(figure, axes, "o")
     return figure
 
@@ -182,7 +177,7 @@ def scatter_by_number(runs: Runs, columns: Sequence[Column], by: Column | None) 
         style.plain_ticks(row[0].yaxis)
         for axis, number in zip(row, numbers, strict=True):
             _points(axis, number, column, scale)
-            mark_failed(axis, number.values[runs.failed], _colours_of_failed(runs, scale))
+            mark_failed(axis, number.values[runs.failed])
     for axis, number in zip(axes[-1], numbers, strict=True):
         number_axis(axis.xaxis, _short(number))
     _few_ticks(axes[-1])
