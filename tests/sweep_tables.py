@@ -39,3 +39,8 @@ def made(
 def design(sample: str, *ranges: str, seed: int = 0) -> np.ndarray:
     """The numbers of a sample (run, number)."""
     return sampled(ranges_of(ranges), sample, seed)
+
+
+def measures(values: np.ndarray) -> dict[str, np.ndarray]:
+    """min y = -M/K and max F = M + K of runs (run, number)."""
+    return {"min y": -values[:, 1] / values[:, 0], "max F": values[:, 0] + values[:, 1]}

@@ -221,6 +221,23 @@ def test_a_sweep_of_python_with_commands_that_have_no_text_has_no_page() -> None
         page_of_sweep(sweep)
 
 
+def test_routines_of_the_user_are_bound_again(path: Path, capsys: pytest.CaptureFixture) -> None:
+    """Numbers are kept in the file; functions are not, which would have a module loaded."""
+    calls = "VARIABLE/1, FUNCTION=USER(3)\nSFORCE/1, TRANSLATIONAL, I=2, J=1, FUNCTION=VARVAL(1)\n"
+    path.write_text(DECK.replace("SIMULATE", f"{calls}SIMULATE"))
+    Path("pulling.py").write_text("def pull(parameters, time):\n    return parameters[0] * time\n")
+    words = ["sweep", "fall.adm", f"{MASS}=1,2", "--measure", LOWEST, "--quiet", "-o"]
+    assert main([*words, "numbers.nc", "--user", "VARIABLE/1=3"]) == 0
+    assert main(["view", "numbers.nc", "--no-open"]) == 0
+    assert main([*words, "functions.nc", "--user", "VARSUB=pulling:pull"]) == 0
+    assert main(["view", "functions.nc", "--no-open"]) == 3
+    assert "the routine VARSUB is no part of the deck" in capsys.readouterr().err
+    assert main(["view", "functions.nc", "--no-open", "--user", "VARSUB=pulling:pull"]) == 0
+    assert "other measures" not in capsys.readouterr().err
+    assert main(["view", "functions.nc", "--no-open", "--user", "VARSUB=9"]) == 0
+    assert "2 runs (0, 1) have other measures" in capsys.readouterr().err
+
+
 HOSTILE = "</script><script>alert(1)</script><!-- <b>$&{{bundle}}"
 
 

@@ -81,6 +81,12 @@ def page_of_sweep(
     return page_of_scene(replace(drawn, plain={**drawn.plain, "notes": notes})), told
 
 
+def bound_deck(sweep: Sweep, user: Sequence[str]) -> Deck:
+    """The deck that a sweep carries, with bindings of routines, ``VARSUB=module:function``."""
+    source, _ = origin_of(sweep)
+    return replace(source, user=(*source.user, *user)).read()[0]
+
+
 def numbers_of_runs(text: str, count: int) -> list[int]:
     """``0,5,7``, ``FROM:TO`` (without TO) or ``FROM:TO:STEP``, of so many runs.
 

@@ -216,7 +216,7 @@ def _sweep(args: argparse.Namespace, kind: str, output: Path) -> int:
     from adamslite.outputs.whole_files import need_writable
     from adamslite.page.page import write_page
     from adamslite.progress import TalkingProgress
-    from adamslite.sweeps.motions import numbers_of_runs, page_of_sweep
+    from adamslite.sweeps.motions import bound_deck, numbers_of_runs, page_of_sweep
     from adamslite.sweeps.netcdf import read
 
     if args.commands or args.values or args.against or run_options(args):
@@ -228,7 +228,9 @@ def _sweep(args: argparse.Namespace, kind: str, output: Path) -> int:
     need_writable(output, [each for each in (args.scene, args.deck) if each])
     found = read(args.scene)
     numbers = numbers_of_runs(args.runs, len(found)) if args.runs else None
-    deck = adamslite.read(args.deck, args.user) if args.deck else None
+    deck = bound_deck(found, args.user) if args.user else None
+    if args.deck:
+        deck = adamslite.read(args.deck, args.user)
     progress = TalkingProgress()
     try:
         page, told = page_of_sweep(found, deck, numbers, args.channels, progress)
