@@ -141,7 +141,7 @@ END
 def double_pendulum(
     t: np.ndarray, m1: complex, m2: complex, damping: complex, g: complex, length: complex
 ) -> np.ndarray:
-    """Angles (2, nt) of both boxes of half lengths 0.25, the first with its pins ``length`` apart."""
+    """Angles (2, nt) of both boxes, 0.25 to their middles; pins of the first ``length`` apart."""
     half, inertia = 0.25, 0.293
 
     def rates(_: float, y: np.ndarray) -> np.ndarray:
@@ -230,7 +230,7 @@ END
 
 
 def test_a_bounce_against_differences():
-    """Height, mass, stiffness, damping and the place of the floor, at t = 1.5 behind two bounces."""
+    """Height, mass, stiffness, damping and the place of the floor, behind two bounces."""
     names = ["POINT_MASS/2.QG[1]", "POINT_MASS/2.MASS", *(f"VFORCE/1.FY[{k}]" for k in (0, 1, 3))]
     run, deck = {"end": 1.5, "steps": 3}, al.read(IMPACT)
     found = al.sensitivities(deck, names, ["POINT_MASS/2.y@end"], error=1e-12, **run)

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
@@ -20,7 +20,7 @@ from adamslite.equations.engine import ints
 from adamslite.integrators import contract
 from adamslite.model.model import PART
 from adamslite.native.translate import Rows
-from adamslite.sensitivity.contract import Piece, TangentGroup, Tangents
+from adamslite.sensitivity import contract as records
 
 if TYPE_CHECKING:
     from adamslite.equations.system import System
@@ -73,19 +73,22 @@ class Snapshot:
         )  # fmt: skip
 
 
+Piece: TypeAlias = tuple[int, int, int, np.ndarray]
+"""A group of kernels, the first instance, how many, derivatives of their reals."""
+
+
 @dataclass
 class Direction:
     """Derivatives of a model's arrays by one number.
 
-    ``pieces``: of groups of kernels, the first instance, how many, their reals; ``start``: of
-    places and turns (n,), velocities (n,) and states (ns,) at the start.
+    ``start``: of places and turns (n,), velocities (n,) and states (ns,) at the start.
     """
 
     mass: np.ndarray
     inertia: np.ndarray
     gravity: np.ndarray
     start: np.ndarray
-    pieces: list[tuple[int, int, int, np.ndarray]] = field(default_factory=list)
+    pieces: list[Piece] = field(default_factory=list)
 
     def moves(self, system: System) -> bool:
         """Whether an equation hangs on the number, or the start; else what is written, at most."""
@@ -98,7 +101,7 @@ def direction(system: System, base: Snapshot, around: dict[int, Snapshot], h: fl
     """The derivatives by a number, from snapshots at multiples of ``h`` beside its value."""
 
     def slope(name: str) -> np.ndarray:
-        return _slope({k: getattr(each, name) for k, each in around.items()}, h)
+        return slope_around({k: getattr(each, name) for k, each in around.items()}, h)
 
     turned = slope("attitudes") @ base.attitudes.transpose(0, 2, 1)
     turns = 0.5 * np.stack(
@@ -120,20 +123,20 @@ def _in_bytes(tables: Iterable[Any]) -> bytes:
     return b"".join(each.data.tobytes() for each in tables)
 
 
-def _slope(around: dict[int, np.ndarray], h: float) -> np.ndarray:
+def slope_around(around: dict[int, Any], h: float) -> Any:
     """The derivative; what does not change has none."""
     return (8.0 * (around[1] - around[-1]) - (around[2] - around[-2])) / (12.0 * h)
 
 
 def _pieces(
     system: System, base: Snapshot, around: dict[int, Snapshot], h: float
-) -> Iterator[tuple[int, int, int, np.ndarray]]:
+) -> Iterator[Piece]:
     for k, group in enumerate(system.kernels.groups):
         given = [each.reals[k] for each in around.values()]
         if all(each.tobytes() == base.reals[k].tobytes() for each in given):
             continue
         with np.errstate(invalid="ignore"):
-            rates = _slope({n: each.reals[k] for n, each in around.items()}, h)
+            rates = slope_around({n: each.reals[k] for n, each in around.items()}, h)
         rows = np.where(np.isfinite(rates), rates, 0.0)[:-1].reshape(len(group.instances), -1)
         params = len(group.instances.columns.params)
         rows[:, params : params + group.meta["angles"] + group.meta["limits"]] = 0.0  # memories
@@ -150,7 +153,7 @@ class Collected:
 
     def __init__(self, system: System, found: Iterable[Direction], group: Rows) -> None:
         found = [*found]
-        T = self.record = Tangents.zeros()
+        T = self.record = records.Tangents.zeros()
         rows: list[int] = []
         self.keep = [each[3] for one in found for each in one.pieces]
         for one in found:
@@ -161,7 +164,7 @@ class Collected:
         largest = max((each.size for each in system.instances.keep[1::2]), default=0)
         self.zeros = np.zeros(largest + 1)
         T.count, T.group = len(found), group
-        T.piece, T.piece_at = Rows(Piece, ints(rows)), ints(ends)
+        T.piece, T.piece_at = Rows(records.Piece, ints(rows)), ints(ends)
         T.signals = ints([any(faces[k] == "signal" for k, *_ in one.pieces) for one in found])
         T.mass = _joined([one.mass for one in found])
         T.inertia = _joined([one.inertia for one in found])
@@ -185,4 +188,4 @@ def tangent_groups(system: System) -> Rows:
         sizes = [system.instances.keep[2 * k].size, system.instances.keep[2 * k + 1].size - 1]
         count = max(len(group.instances), 1)
         rows += [*tangents(system.kernels, group), *(size // count for size in sizes)]
-    return Rows(TangentGroup, ints(rows))
+    return Rows(records.TangentGroup, ints(rows))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,12 +12,14 @@ from adamslite.analyses.simulation import explained, plan_of
 from adamslite.analyses.subject import deck_of, kernels_of, prepared_for
 from adamslite.equations.result_columns import columns
 from adamslite.errors import RunFailed, UsageError
+from adamslite.kernels.groups import Kernels
 from adamslite.model.model import PART
 from adamslite.model.reduction import MERGED
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 from adamslite.sensitivity.directions import SHARE, STENCIL, Direction, Snapshot, direction
 from adamslite.sensitivity.measures import asked, slope
+from adamslite.sensitivity.recipes import Known
 from adamslite.sensitivity.record import Sensitivities
 from adamslite.sensitivity.taped import Probe, Ready, Taped, followed
 from adamslite.variation.decks import variable_of
@@ -28,7 +30,6 @@ if TYPE_CHECKING:
     from adamslite.analyses.subject import Subject
     from adamslite.deck.redefinition import Command
     from adamslite.equations.system import System
-    from adamslite.kernels.groups import Kernels
     from adamslite.progress import Progress
     from adamslite.reading.numbers import Named
 
@@ -66,7 +67,17 @@ class Study:
         self.deck = deck_of(subject)
         if self.deck.delays:
             raise UsageError("DELAY: derivatives of a past that is looked up are not worked out")
-        self.kernels = kernels_of(subject, None, self.without, False)
+        self.kernels = self._kernels(subject)
+
+    def _kernels(self, subject: Subject) -> Kernels:
+        """Those of a deck are kept with it, and what is known of its numbers with them."""
+        if subject is not self.deck:
+            return kernels_of(subject, None, self.without, False)
+        base, asked = self.deck.base or self.deck, (Kernels, self.without, False)
+        if base.kept.get(asked) is None:
+            base.kept[asked] = kernels_of(base, None, self.without, False)
+        kernels: Kernels = base.kept[asked]
+        return of_deck(kernels, self.deck) if self.deck.base else kernels
 
     def named(self, by: Iterable[str]) -> list[Named]:
         """The numbers of these names.
@@ -104,8 +115,9 @@ class Study:
             raise RunFailed(explained(session))
         raise UsageError("derivatives are those of a dynamic analysis, and there is none")
 
-    def directions(self, named: list[Named]) -> tuple[System, list[Direction]]:
-        """Derivatives of the arrays by each number.
+    def directions(self, named: list[Named]) -> Callable[[System, bool], list[Direction]]:
+        """What gives derivatives of the arrays by each number, of the system and whether it starts
+        as it is drawn.
 
         What is zero, as the distance of a marker from its mass centre, is left out of equations. A
         number that moves it away from there is put a hair beside its value first.
@@ -115,26 +127,57 @@ class Study:
         UsageError
             When a number decides more than values.
         """
-        system, base = self.snapshot(self.kernels)
-        around = [self._around(each) for each in named]
-        beside = {
-            each.name: each.value + NUDGE * self._step(each)
-            for each, found in zip(named, around, strict=True)
-            if any(one.names != base.names for one in found.values())
-        }
+        known = Known(self.kernels)
+        quick = {each.name for each in named if known.is_load(each) or known.is_mass(each)}
+        slow = [each for each in named if each.name not in quick]
+        if slow:
+            self._put_beside(slow)
+            known, named = Known(self.kernels), self.named(each.name for each in named)
+        made: dict[str, Direction] = {}
+        if slow:
+            system, base = self.snapshot(self.kernels)
+            for each in named:
+                if each.name not in quick:
+                    made[each.name] = self.direction(system, base, each)
+
+        def found(system: System, as_drawn: bool) -> list[Direction]:
+            for each in named:
+                if each.name in quick and known.is_load(each):
+                    made[each.name] = known.load(system, each)
+                elif each.name in quick and as_drawn:
+                    made[each.name] = known.mass(system, each, self._step(each))
+                elif each.name not in made:
+                    made[each.name] = self.direction(*self.snapshot(self.kernels), each)
+            return [made[each.name] for each in named]
+
+        return found
+
+    def _put_beside(self, named: list[Named]) -> None:
+        """Put a hair beside its value what has another form there."""
+        base = [group.name for group in self.kernels.groups]
+        beside = {}
+        for each in named:
+            deck = self.deck.with_values({each.name: each.value + self._step(each)})
+            if [group.name for group in of_deck(self.kernels, deck).groups] != base:
+                beside[each.name] = each.value + NUDGE * self._step(each)
         if beside:
             self.deck = self.deck.with_values(beside)
             self.kernels = of_deck(self.kernels, self.deck)
-            system, base = self.snapshot(self.kernels)
-            named = self.named(each.name for each in named)
-            around = [self._around(each) for each in named]
-        for each, found in zip(named, around, strict=True):
-            if any(one.names != base.names for one in found.values()):
-                raise UsageError(FORM.format(name=each.name))
-            if any(one.tables != base.tables for one in found.values()):
-                raise UsageError(TABLE.format(name=each.name))
-        pairs = zip(named, around, strict=True)
-        return system, [direction(system, base, found, self._step(each)) for each, found in pairs]
+
+    def direction(self, system: System, base: Snapshot, number: Named) -> Direction:
+        """Derivatives of the arrays by one number; ``base``: the arrays themselves.
+
+        Raises
+        ------
+        UsageError
+            When the number decides the form of expressions, or is one of a table.
+        """
+        around = self._around(number)
+        if any(one.names != base.names for one in around.values()):
+            raise UsageError(FORM.format(name=number.name))
+        if any(one.tables != base.tables for one in around.values()):
+            raise UsageError(TABLE.format(name=number.name))
+        return direction(system, base, around, self._step(number))
 
     def _around(self, number: Named) -> dict[int, Snapshot]:
         """Snapshots beside the value of a number."""
@@ -171,7 +214,7 @@ def sensitivities(
     named = study.named(by)
     if not named:
         raise UsageError("derivatives by what? --by NAME; `adamslite names DECK` lists numbers")
-    system, found = study.directions(named)
+    directions = study.directions(named)
     session = study.session(Taped, study.kernels)
     made: dict[str, Any] = {}
 
@@ -183,19 +226,21 @@ def sensitivities(
         names, values = columns(system, record)
         measures, kept = asked(of, names) if of else ([], [*range(len(names))])
         lot = max(1, MOST_HELD // max(record.size, 1))
+        found = directions(system, not (session.assembled or session.speeds))
         curves = []
         for at in range(0, len(found), lot):
             slopes = followed(system, method, found[at : at + lot])
             curves += [_columns(system, record, each)[:, kept] for each in slopes]
         made.update(names=names, values=values, kept=kept, measures=measures, curves=curves)
         made["time"] = system.times.copy()
+        pairs = zip(named, found, strict=True)
+        made["still"] = [each.name for each, one in pairs if not one.moves(system)]
         return np.zeros(0)
 
     session.follow = follow
     session.execute(study.plan)
     if session.outcome is not Outcome.DONE:
         raise RunFailed(explained(session))
-    made["still"] = [n.name for n, each in zip(named, found, strict=True) if not each.moves(system)]
     return _gathered(study, named, session, made)
 
 
