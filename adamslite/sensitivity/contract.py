@@ -72,6 +72,7 @@ class Forward(Record):
     row                  the next row of the record
     h, order             of the last step
     stages               (3 W.size,) workspaces of the stages of a step
+    age, factored        steps since matrices were made; the step that they are factored for
     grazed               events whose time has no derivative
     """
 
@@ -92,4 +93,6 @@ class Forward(Record):
     row: int
     h: float
     order: int
+    age: int
+    factored: float
     grazed: int

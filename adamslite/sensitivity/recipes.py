@@ -19,6 +19,7 @@ from adamslite.sensitivity.directions import STENCIL, Direction, Piece, slope_ar
 from adamslite.variation.decks import variable_of
 
 if TYPE_CHECKING:
+    from adamslite.deck.deck import Deck
     from adamslite.elements.part import Part
     from adamslite.equations.system import System
     from adamslite.kernels.groups import Kernels
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
 
 #: Statements whose numbers do not move the start.
 LOADS = frozenset("SFORCE VFORCE VTORQUE GFORCE SPRINGDAMPER BUSHING FIELD REQUEST".split())
-BODIES = ("PART", "POINT_MASS")
 #: What kernels of these faces take is in no equation that the start fulfils.
 AFTERWARDS = {"loads", "output"}
 
@@ -58,13 +58,20 @@ RULES: dict[Any, Callable[[list[float], list[float]], float]] = {
 }
 
 
+def alone(deck: Deck) -> set[str]:
+    """Numbers of bodies of which it was seen that no kernel and no start hangs on them."""
+    found: set[str] = (deck.base or deck).kept.setdefault(alone, set())
+    return found
+
+
 class Known:
-    """The numbers of a deck whose values were put into kernels before, and were verified."""
+    """The numbers of a deck whose values were put into kernels before, and what was seen then."""
 
     def __init__(self, kernels: Kernels) -> None:
         deck = kernels.model.deck
         self.variable = variable_of(deck.base or deck)
         self.refill: Refill | None = kernels.refill
+        self.alone = alone(deck)
         self.faces = [group.face for group in kernels.groups]
         named = (self.variable.numbers.named[name.upper()] for name in deck.values)
         given = {each.at: each.digits(deck.values[each.name]) for each in named}
@@ -76,10 +83,9 @@ class Known:
 
     def is_mass(self, number: Named) -> bool:
         """Whether it is the mass or the inertia of a body, and in no kernel."""
-        of_body = number.statement.keyword in BODIES and self._is_verified(number)
         fields = self.variable.fields.get(number.at, [])
-        alone = of_body and self.refill is not None and number.at not in self.refill.columns
-        return alone and all(name in ("mass", "ip") for _, name in fields)
+        of_mass = bool(fields) and all(name in ("mass", "ip") for _, name in fields)
+        return of_mass and number.name in self.alone
 
     def _is_verified(self, number: Named) -> bool:
         """Whether values of it were compared with the long way, and no statement derives of it."""

@@ -48,6 +48,11 @@ from adamslite.sensitivity.tangents import put_direction, tangent
 RATE_ROWS, ROWS = 3, 7
 # Increments stop at this share of ERROR, and of what they are against; and after so many.
 SHARE, LEAST, MOST = 1e-2, 1e-12, 20
+# Derivatives serve for so many steps, while increments take no more iterations than this.
+# the step is done again with new ones where it takes many.
+KEEP_STEPS, QUICK, SLOW = 20, 5, 12
+# Factors made for a step that differs by this share serve.
+SAME_STEP = 1e-6
 # A step is predicted by the polynomial of one that is not much shorter.
 LONGER = 4.0
 
@@ -58,18 +63,16 @@ def by_stages(P: Problem, L: Plan, D: Tangents, S: Forward) -> int:
     T = P.tape
     if not at_start(P, L, D, S):
         return SINGULAR_MASS
-    S.h = 0.0
+    S.h, S.age, S.factored = 0.0, KEEP_STEPS, 0.0
     for row in range(1, T.rows):
         here = T.data[row * T.width :]
         if here[TAPE_KIND] != AT_STEP:
             jump(P, L, D, S, T.data[(row - 1) * T.width + TAPE_HEAD :], here[TAPE_HEAD:])
-            S.h = 0.0
+            S.h, S.age = 0.0, KEEP_STEPS
             continue
-        if not lay_stages(P, L, S, here):
+        lay_stages(P, S, here)
+        if not by_matrices(P, L, D, S, here[TAPE_STEP]):
             return SINGULAR_MASS
-        for number in range(D.count):
-            if not solve_stages(P, L, D, S, number, here[TAPE_STEP]):
-                return SINGULAR_MASS
         if not record(P, L, D, S, here):
             return SINGULAR_MASS
         for number in range(D.count):
@@ -89,8 +92,8 @@ def z_width(P: Problem) -> int:
 
 
 @native
-def lay_stages(P: Problem, L: Plan, S: Forward, here: Reals) -> bool:
-    """Workspaces of the stages of the run, and the factored matrices."""
+def lay_stages(P: Problem, S: Forward, here: Reals) -> None:
+    """Workspaces of the stages of the run, and its history at the step."""
     C = Control(P.control)
     size, h = P.W.size, here[TAPE_STEP]
     C.t = here[TAPE_TIME] - h
@@ -100,13 +103,42 @@ def lay_stages(P: Problem, L: Plan, S: Forward, here: Reals) -> bool:
     for stage in range(3):
         put_stage(P, stage + 1, h)
         copy(S.stages[stage * size :], P.W, size)
-    radau_jacobian(P, L, h)
-    return radau_matrices(P, L, h)
 
 
 @native
-def solve_stages(P: Problem, L: Plan, D: Tangents, S: Forward, number: int, h: float) -> bool:
-    """Sensitivities at the stages; False when they are no numbers."""
+def by_matrices(P: Problem, L: Plan, D: Tangents, S: Forward, h: float) -> bool:
+    """Sensitivities at the stages by all numbers, with new matrices where old ones are slow."""
+    number, slowest = 0, 0
+    while number < D.count:
+        if not ready(P, L, S, h):
+            return False
+        turns = solve_stages(P, L, D, S, number, h)
+        if turns >= SLOW and S.age > 0:
+            S.age = KEEP_STEPS
+        elif turns > MOST:
+            return False
+        else:
+            number, slowest = number + 1, max(slowest, turns)
+    S.age += 1 if slowest <= QUICK else KEEP_STEPS
+    return True
+
+
+@native
+def ready(P: Problem, L: Plan, S: Forward, h: float) -> bool:
+    """Derivatives and factors for a step of size ``h``."""
+    if S.age >= KEEP_STEPS:
+        radau_jacobian(P, L, h)
+        S.age, S.factored = 0, 0.0
+    if not abs(h - S.factored) <= SAME_STEP * h:
+        S.factored = h if radau_matrices(P, L, h) else 0.0
+    return S.factored != 0.0
+
+
+@native
+def solve_stages(P: Problem, L: Plan, D: Tangents, S: Forward, number: int, h: float) -> int:
+    """Sensitivities at the stages; the iterations that they took, beyond ``MOST`` when they are no
+    numbers.
+    """
     H, w = S.history[number * S.room :], S.width
     guess(P, S, H, h)
     last = HUGE
@@ -116,13 +148,14 @@ def solve_stages(P: Problem, L: Plan, D: Tangents, S: Forward, number: int, h: f
         stage_increments(P, L)
         size = apply(P, H, w)
         if not size < HUGE:
-            return False
+            return MOST + 1
         limit = max(SHARE * P.settings.error, LEAST) * scale(P, H)
         if size <= limit or (turn > 2 and size > 0.5 * last):
-            break
+            motion(P, S, H, h)
+            return turn + 1
         last = size
     motion(P, S, H, h)
-    return True
+    return MOST
 
 
 @native

@@ -19,7 +19,7 @@ from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 from adamslite.sensitivity.directions import SHARE, STENCIL, Direction, Snapshot, direction
 from adamslite.sensitivity.measures import asked, slope
-from adamslite.sensitivity.recipes import Known
+from adamslite.sensitivity.recipes import Known, alone
 from adamslite.sensitivity.record import Sensitivities
 from adamslite.sensitivity.taped import Probe, Ready, Taped, followed
 from adamslite.variation.decks import variable_of
@@ -177,7 +177,10 @@ class Study:
             raise UsageError(FORM.format(name=number.name))
         if any(one.tables != base.tables for one in around.values()):
             raise UsageError(TABLE.format(name=number.name))
-        return direction(system, base, around, self._step(number))
+        found = direction(system, base, around, self._step(number))
+        if not found.pieces and not found.start.any():
+            alone(self.deck).add(number.name)
+        return found
 
     def _around(self, number: Named) -> dict[int, Snapshot]:
         """Snapshots beside the value of a number."""
