@@ -22,6 +22,7 @@ from adamslite.page.pictures import RATES, need_browser, write_film
 from adamslite.plots.style import save as save_figure
 from adamslite.results.results import Results
 from adamslite.scene import load_scene, run_scene
+from adamslite.sweeps.motions import page_of_sweep
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -55,20 +56,22 @@ SWEEPS = {
     )
 }  # fmt: skip
 """Of a sweep: a deck, what varies, a measure."""
+SLIDERS = {"sliders": (*SWEEPS["sweep"], {"theme": "light", "run": "20", "plot": "POINT_MASS/2.y"})}
+"""Of the page of a sweep: the same, and what the page is asked for."""
 FILMS = {"tackle": Picture("decks/tackle/hoisting.adm")}
 """Of the scene, as GIF."""
 
 
 def main() -> None:
     """Draw what the command names, or everything."""
-    names = sorted({*PAGES, *PLOTS, *SWEEPS, *FILMS})
+    names = sorted({*PAGES, *PLOTS, *SWEEPS, *SLIDERS, *FILMS})
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("names", nargs="*", choices=[*names, []], metavar="NAME", help=str(names))
     chosen = parser.parse_args().names or names
     FOLDER.mkdir(exist_ok=True)
     for table, suffix, draw in (
         (PAGES, ".png", draw_page), (PLOTS, ".png", draw_plot), (SWEEPS, ".png", draw_sweep),
-        (FILMS, ".gif", draw_film),
+        (SLIDERS, ".png", draw_sliders), (FILMS, ".gif", draw_film),
     ):  # fmt: skip
         for name in table.keys() & chosen:
             path = FOLDER / f"{name}{suffix}"
@@ -95,10 +98,22 @@ def draw_film(picture: Picture, path: Path) -> None:
 def draw_page(picture: Picture, path: Path) -> None:
     """Of the page as a reader sees it."""
     text, _, time = solved(picture)
+    save_page(text, {**picture.asked, "t": str(time)}, path)
+
+
+def draw_sliders(given: tuple[str, dict[str, str], str, dict[str, str]], path: Path) -> None:
+    """Of the page of a sweep."""
+    deck, varied, measure, asked = given
+    text, _ = page_of_sweep(al.sweep(ROOT / deck, varied, measures=measure))
+    save_page(text, {**asked, "t": "0.4"}, path)
+
+
+def save_page(text: str, asked: dict[str, str], path: Path) -> None:
+    """The picture of a page with its controls."""
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         file, raw = Path(folder) / "page.html", Path(folder) / "raw.png"
         file.write_text(text, encoding="utf-8")
-        address = f"{file.as_uri()}#{urlencode({**picture.asked, 't': time})}"
+        address = f"{file.as_uri()}#{urlencode(asked)}"
         window = "--window-size={},{}".format(*WIDE)
         profile = f"--user-data-dir={folder}/profile"
         command = [need_browser(), *flags(), window, profile, f"--screenshot={raw}", address]

@@ -146,6 +146,17 @@ def test_a_band_of_a_grid_is_median_and_percentiles_of_the_runs_at_a_value() -> 
     assert set(narrow.get_paths()[0].vertices[:, 1]) >= {102.0, 104.0}
 
 
+def test_very_many_curves_are_a_band_unless_a_number_is_asked_for() -> None:
+    values = design("grid", "K=80:140:4", "M=1:5:400")
+    sweep = made("grid", measures(values), values)
+    figure = sweep.plot("max F", x="K")
+    assert "from 5 to 95 % of the runs" in notes(figure)
+    assert figure.axes[0].get_lines()[0].get_ydata() == pytest.approx([83, 103, 123, 143])
+    figure = sweep.plot("max F", x="K", by="M")
+    assert len(figure.axes[0].get_lines()) == 300
+    assert "300 of 400 lines are drawn" in notes(figure)
+
+
 def test_a_measure_over_a_measure() -> None:
     figure = grid(failed={0: "INVALID"}).plot("max F", x="min y")
     axis = figure.axes[0]

@@ -22,6 +22,8 @@ WIDTH, HEIGHTS, LOWEST = 9.0, {1: 3.8, 2: 2.6, 3: 2.2}, 1.9
 TELLABLE = 8
 #: Markers of so many points are pixels in a drawing of lines: it would be large, and slow to show.
 MANY_POINTS = 3000
+#: More lines than this are a surface: they are drawn as a band, of these percentiles.
+MOST_LINES, USUAL = 300, (5.0, 95.0)
 MARKED = "x: a run that failed, where its number stands; it has no value."
 
 
@@ -101,6 +103,14 @@ def mark_failed(axis: Axes, places: np.ndarray) -> None:
         )  # fmt: skip
         axis.update_datalim(np.column_stack([places, places]), updatey=False)
         axis.autoscale_view()
+
+
+def thinned(items: Sequence[Any]) -> Sequence[Any]:
+    """As many as can be drawn as lines, evenly from the first to the last."""
+    if len(items) <= MOST_LINES:
+        return items
+    picked = np.linspace(0, len(items) - 1, MOST_LINES).round().astype(int)
+    return [items[k] for k in picked]
 
 
 def number_axis(axis: Any, column: Column) -> None:

@@ -11,7 +11,7 @@ from adamslite.errors import UsageError
 from adamslite.plots import style
 from adamslite.plots.frame import framed
 from adamslite.plots.selection import clipped, listed, titled
-from adamslite.plots.sweep_axes import WIDTH, Scale, height_of
+from adamslite.plots.sweep_axes import MOST_LINES, USUAL, WIDTH, Scale, height_of, thinned
 from adamslite.plots.sweep_measures import band_words, draw_band, percentiles_of
 from adamslite.plots.sweep_selection import TIME, Runs, Wanted
 
@@ -19,9 +19,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: More lines than this are a surface: they are drawn as a band.
-MOST_LINES = 300
-USUAL = (5.0, 95.0)
 #: Histories with fewer output times have their points marked.
 FEWEST = 3
 DOTTED = (0, (1, 1.4))
@@ -48,9 +45,8 @@ def lines(runs: Runs, names: Sequence[str], drawn: Sequence[int], wanted: Wanted
     by = runs.number(wanted.by, "--by") if wanted.by else runs.varied[0]
     scale, notes = Scale(by), list(runs.notes())
     if len(drawn) > MOST_LINES:
-        picked = np.linspace(0, len(drawn) - 1, MOST_LINES).round().astype(int)
         notes.insert(0, f"{MOST_LINES} of {len(drawn)} runs are drawn.")
-        drawn = [drawn[k] for k in picked]
+        drawn = thinned(drawn)
     failed = [k for k in drawn if not runs.good[k]]
     if failed:
         notes.append("Dotted: a run that failed, until it ended (x).")

@@ -14,11 +14,14 @@ from adamslite.plots.selection import clipped, listed
 from adamslite.plots.sweep_axes import (
     MANY_POINTS,
     MARKED,
+    MOST_LINES,
+    USUAL,
     WIDTH,
     Scale,
     height_of,
     mark_failed,
     number_axis,
+    thinned,
 )
 from adamslite.plots.sweep_selection import Column, Runs, Wanted
 
@@ -51,7 +54,10 @@ def measures_figure(runs: Runs, names: Sequence[str], wanted: Wanted) -> Figure:
     is_number = x.name in runs.sweep.names
     by = _coloured_by(runs, x, wanted)
     if is_number and runs.is_grid:
-        return curves(runs, others, x, by)
+        groups = _groups(runs, x)
+        if len(groups) > MOST_LINES and not wanted.by:
+            return bands(runs, others, x, USUAL)
+        return curves(runs, others, x, by, groups)
     return scatter(runs, others, x, by)
 
 
@@ -70,17 +76,20 @@ def _coloured_by(runs: Runs, x: Column, wanted: Wanted) -> Column | None:
     return others[0] if others and runs.is_grid else None
 
 
-def curves(runs: Runs, columns: Sequence[Column], x: Column, by: Column | None) -> Figure:
-    """A line for each combination of the other numbers, coloured by one of them."""
-    groups = _groups(runs, x)
+def curves(
+    runs: Runs, columns: Sequence[Column], x: Column, by: Column | None, groups: list[np.ndarray]
+) -> Figure:
+    """A line for each group of runs, coloured by a number."""
     scale = Scale(by)
     notes = list(_failure_notes(runs))
+    if len(groups) > MOST_LINES:
+        notes.insert(0, f"{MOST_LINES} of {len(groups)} lines are drawn.")
     rest = [each.name for each in runs.varied if each.name not in (x.name, by.name if by else "")]
     if rest:
         notes.append(f"Lines of one colour differ in {listed(rest)}.")
     figure, axes = _stacked(runs, columns, x, notes, f"{_names(columns)} over {clipped(x.name)}")
     for axis, column in zip(axes, columns, strict=True):
-        for group in groups:
+        for group in thinned(groups):
             order = group[np.argsort(x.values[group], kind="stable")]
             colour = scale.colours(by.values[order[:1]])[0] if by else style.BLUE
             marker = "o" if len(order) <= MARKED_POINTS else ""

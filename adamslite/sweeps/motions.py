@@ -230,6 +230,8 @@ class _Again:
         """Whether its measures are those of the file."""
         for name, kept in zip(self._sweep.measured, self._sweep.measures.T, strict=True):
             (measure,) = parsed([name])
+            if measure.channel not in results:
+                return False
             found = measure.of(results.time, results[measure.channel])
             scale = float(np.nanmax(np.abs(kept), initial=0.0))
             if not (abs(found - kept[number]) <= AGAIN * scale or found == kept[number]):
