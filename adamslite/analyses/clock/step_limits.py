@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from adamslite.analyses.clock.kept_scales import all_time_scales
-from adamslite.analyses.clock.stops import SAME, edges, merged
+from adamslite.analyses.clock.stops import edges, merged, same_time
 from adamslite.integrators import contract
 
 if TYPE_CHECKING:
@@ -143,7 +143,7 @@ def _paces(scales: np.ndarray, looks: np.ndarray, longest: float, fine: bool) ->
 
 def _rows(spans: np.ndarray, stops: np.ndarray, start: float) -> np.ndarray:
     """The rows of ``P.paces``; what is nearer to a stop than round-off is at the stop."""
-    never, same = contract.NO_PACE[1], SAME * (stops[-1] - start)
+    never, same = contract.NO_PACE[1], same_time(start, stops[-1])
     for each in (stops[:-1], stops[1:]) if len(stops) > 1 else ():
         near = each[np.searchsorted(each, spans[:, :2] + same).clip(1, len(each)) - 1]
         spans[:, :2] = np.where(np.abs(near - spans[:, :2]) <= same, near, spans[:, :2])

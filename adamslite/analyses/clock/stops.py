@@ -17,6 +17,7 @@ import numpy as np
 from adamslite.analyses.clock.changes import NOISE, around_changes
 from adamslite.analyses.clock.clock import Clock
 from adamslite.integrators.contract import CLOCK
+from adamslite.integrators.events.stops import LEAST_STEP
 from adamslite.symbolic.guards import FLOOR, STRICT
 
 if TYPE_CHECKING:
@@ -60,11 +61,16 @@ def merged(found: np.ndarray, times: np.ndarray) -> np.ndarray:
     start, end = float(times[0]), float(times[-1])
     if (found == end).all():
         return np.array([end])
-    same = SAME * (end - start)
+    same = same_time(start, end)
     near = times[np.abs(times[:, None] - found).argmin(axis=0)]
     found = np.where(np.abs(near - found) <= same, near, found)
     inside = np.sort(found[(found > start + same) & (found < end - same)])
     return np.append(inside[np.diff(inside, prepend=-np.inf) > same], end)
+
+
+def same_time(start: float, end: float) -> float:
+    """Times nearer to each other are one; a step between them would be round-off of the time."""
+    return max(SAME * (end - start), LEAST_STEP * abs(end))
 
 
 def _grid(

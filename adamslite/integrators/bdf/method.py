@@ -51,7 +51,14 @@ from adamslite.integrators.contract import BROKEN_START, SINGULAR_MASS, Problem
 from adamslite.integrators.events.dips import expected_share
 from adamslite.integrators.events.events import happened, start_events
 from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins
-from adamslite.integrators.events.stops import fitted, horizon, longest_step, set_pace, step_limit
+from adamslite.integrators.events.stops import (
+    fitted,
+    horizon,
+    least_step,
+    longest_step,
+    set_pace,
+    step_limit,
+)
 from adamslite.integrators.implicit.step_size import first_step
 from adamslite.integrators.implicit.tolerance import is_allowed
 from adamslite.integrators.linalg.plan import Plan
@@ -147,7 +154,7 @@ def limit_step(P: Problem, C: Control) -> None:
         # Equal steps keep their history.
         if abs(fit - 1.0) > EQUAL_STEPS:
             resize(P, C, fit)
-    elif C.h * LONGER > left:
+    elif C.h * LONGER + least_step(P) > left:
         resize(P, C, left / C.h)
     elif 2.0 * C.h > left and horizon(P) < P.settings.t_end:
         resize(P, C, 0.5 * left / C.h)
@@ -181,7 +188,7 @@ def accept(P: Problem, L: Plan, C: Control, norm: float) -> int:
 def move_on(P: Problem, C: Control) -> None:
     """The end of the step is the accepted state."""
     extend_history(P.history, P.trial[C.width :], C.width, C.order)
-    C.t = end_of_step(C, horizon(P) if P.settings.fixed_step > 0.0 else step_limit(P, C.row))
+    C.t = end_of_step(P, C, horizon(P) if P.settings.fixed_step > 0.0 else step_limit(P, C.row))
     C.h_last, C.equal, C.age = C.h, C.equal + 1, C.age + 1
     C.retries, C.fresh, C.norm, C.noisy = 0, False, 0.0, 0
     for i in range(P.z.size):

@@ -36,8 +36,9 @@ def set_pace(P: Problem, t: float) -> None:
 
 @native
 def longest_step(P: Problem) -> float:
-    """HMAX, or what the present pace leaves of it."""
-    return min(P.settings.h_max, P.paces[P.search.pace_at].longest)
+    """HMAX, or what the present pace leaves of it; round-off of the time is no pace."""
+    pace = max(P.paces[P.search.pace_at].longest, least_step(P))
+    return min(P.settings.h_max, pace)
 
 
 @native
@@ -72,8 +73,10 @@ def step_limit(P: Problem, following: int) -> float:
 
 @native
 def fitted(P: Problem, h: float, left: float) -> float:
-    """The step not longer than ``h`` that reaches an output time ``left`` away in equal steps."""
-    count = floor(left / h + 1.0 - WHOLE)
+    """The step not longer than ``h`` that reaches an output time ``left`` away in equal steps, but
+    for round-off of the time.
+    """
+    count = floor((left - least_step(P)) / h + 1.0 - WHOLE)
     return left / max(1.0, count) if count < MANY_STEPS else h
 
 

@@ -180,7 +180,7 @@ def advance(P: Problem, L: Plan, C: Control) -> int:
     note_try(P, C, QUICK_ORDER if C.quick else ORDER)
     if not stages(P, L, C, C.h):
         return after_failure(P, L, C)
-    t = end_of_step(C, step_limit(P, C.row))
+    t = end_of_step(P, C, step_limit(P, C.row))
     y, k = P.history[NEXT_STATE * C.size :], P.history[K_NEW * C.width :]
     if C.quick and not rates_at(P, L, C, t, y, k):
         return near_singularity(P, C)

@@ -135,7 +135,7 @@ def accept(P: Problem, L: Plan, C: Control, norm: float) -> int:
     P.count.steps += 1
     P.report.spent += norm
     P.report.rough_steps += 1 if C.rough else 0
-    C.t = end_of_step(C, step_limit(P, C.row) if C.fixed == 0.0 else horizon(P))
+    C.t = end_of_step(P, C, step_limit(P, C.row) if C.fixed == 0.0 else horizon(P))
     C.h_last, C.retries, C.blamed, C.norm = C.h, 0, NOBODY, 0.0
     C.age += 1
     note_jolt(P, P.history[P.sizes.n :], C.h, False)

@@ -151,7 +151,7 @@ def accept(P: Problem, L: Plan, C: Control, error: float) -> int:
     P.count.steps += 1
     # The formula is of order 5, its estimate of order 3.
     P.report.spent += error * (error * P.settings.error) ** 0.5
-    t = end_of_step(C, horizon(P))
+    t = end_of_step(P, C, horizon(P))
     if row < P.times.size and abs(P.times[row] - t) < ALMOST * h:
         t = P.times[row]
     put_end(P, C)

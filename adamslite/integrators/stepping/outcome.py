@@ -13,6 +13,7 @@ from adamslite.integrators.contract import (
     STEP_TOO_SMALL,
     Problem,
 )
+from adamslite.integrators.events.stops import least_step
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.stepping.control import RUNNING, StepControl
 from adamslite.native.translate import Reals, native, rare
@@ -45,10 +46,12 @@ def note_try(P: Problem, C: StepControl, order: int) -> None:
 
 
 @native
-def end_of_step(C: StepControl, limit: float) -> float:
-    """The time at which the tried step ends: ``limit`` where it all but reaches that."""
+def end_of_step(P: Problem, C: StepControl, limit: float) -> float:
+    """The time at which the tried step ends: ``limit`` where it all but reaches that, or leaves
+    less of it than the shortest step.
+    """
     t = C.t + C.h
-    return limit if t + ALMOST * C.h > limit else t
+    return limit if t + max(ALMOST * C.h, least_step(P)) > limit else t
 
 
 @native

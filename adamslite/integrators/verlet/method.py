@@ -65,6 +65,8 @@ SPIKE, JOLT, STIFFER, IN_CONTACT = 4.0, 0.1, 0.9, 0.3
 # Of the step that the error allows, after a rejected run and after an accepted one; an error below
 # LEAST_ERROR counts as that.
 SAFETY_DOWN, SAFETY, LEAST_ERROR = 0.8, 0.9, 1e-3
+# An interval shorter than this share of a step says nothing about the next one.
+CUT_OFF = 0.25
 # What a number of steps may exceed a whole one by without one step more.
 WHOLE = 1e-9
 # Steps that take less than a try of a step by other methods.
@@ -201,12 +203,13 @@ def cover(P: Problem, L: Plan, C: Control, t: float, end: float) -> int:
         old[i], old[n + i] = P.q[i], P.u[i]
     keep_audit(P)
     wanted, blown = min(C.wanted, longest_step(P)), 0
+    least = min(P.settings.h_min, longest_step(P))
     while not P.settings.stop:
         if not fixed:
             wanted = min(wanted, C.limit)
         h = (end - t) / max(1.0, 0.0 - floor(WHOLE - (end - t) / wanted))
         P.report.h = h
-        if wanted < P.settings.h_min or blown == MOST_BLOWN:
+        if wanted < least or blown == MOST_BLOWN:
             return STEP_TOO_SMALL
         if fixed and STABLE * h > C.limit:
             return UNSTABLE
@@ -242,10 +245,12 @@ def is_time_to_pause(P: Problem, steps: float) -> bool:
 
 @native
 def choose_step(P: Problem, C: Control, error: float, h: float, wanted: float) -> float:
-    """The step to try next: what was before, when these were short for the sake of a pulse."""
+    """The step to try next: what was before, when these were short for the sake of a pulse, or
+    because two stops are near to each other.
+    """
     if longest_step(P) < P.settings.h_max:
         return C.wanted
-    if C.fixed or error >= 0.5:
+    if C.fixed or error >= 0.5 or h < CUT_OFF * wanted:
         return wanted
     return min(GROW, SAFETY * max(error, LEAST_ERROR) ** (-1.0 / 3.0)) * h
 
