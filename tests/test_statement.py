@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+import adamslite as al
 import adamslite.elements
 from adamslite import functions, resources
 from adamslite.elements.passed_over import TABLE
@@ -54,3 +55,11 @@ def test_the_grammar_knows_form_and_no_vocabulary() -> None:
     for path in resources.find("grammar").glob("*.lark"):
         rules = "\n".join(line.partition("//")[0] for line in path.read_text().splitlines())
         assert not words & set(rules.replace("|", " ").split())
+
+
+@pytest.mark.parametrize("name", ["cam", "friction", "hanging-mass"])
+def test_every_statement_of_a_deck_has_a_text(name: str) -> None:
+    """A CVCV and a FRICTION write statements of other kinds, which point at their places."""
+    deck = al.read(Path(f"decks/{name}/{name}.adm"))
+    for each in deck.statements:
+        assert repr(each).startswith(f"<{each.label} ")

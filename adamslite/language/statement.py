@@ -249,7 +249,9 @@ class Statement:
         raise FrozenInstanceError(f"cannot assign to field {name!r}")
 
     def __repr__(self) -> str:
-        given = ", ".join(f"{name}={getattr(self, name)!r}" for name in self.spans)
+        # What stands for another statement, as the roller of a CVCV, has the spans of that one.
+        known = (name for name in self.spans if name in self.field_names)
+        given = ", ".join(f"{name}={getattr(self, name)!r}" for name in known)
         return f"<{self.label} {given}>"
 
     @cached_property
