@@ -322,3 +322,25 @@ def test_a_sensor_whose_value_stays_compiles_nothing(monkeypatch: pytest.MonkeyP
 def test_a_sensor_asks_for_no_more_outputs_than_there_may_be() -> None:
     with pytest.raises(UsageError, match="SENSOR/1: there may be 1e.08 output steps; a longer DT"):
         fall("SENSOR/1, LE, VALUE=-1, ERROR=0, DT=1E-9, FUNCTION=DY(2,1)")
+
+
+@pytest.mark.parametrize("method", ("GSTIFF", "HHT", "RADAU", "RKF45"))
+@pytest.mark.parametrize("of", ("TIME", "DX(2,1)"))
+@pytest.mark.parametrize("apart", [0.0, 5e-14, -9e-14, 1e-12, -1e-9])
+def test_two_sensors_at_nearly_the_same_time_both_act(method: str, of: str, apart: float) -> None:
+    """A mass at 1 m/s from x = 0: x is the time."""
+    deck = f"""\
+two sensors
+PART/1, GROUND
+MARKER/1, PART=1
+POINT_MASS/2, MASS=1, CM=2, VX=1
+MARKER/2, POINT_MASS=2
+SENSOR/1, GE, VALUE=0.5123, ERROR=0, FUNCTION={of}
+SENSOR/2, GE, VALUE={0.5123 + apart!r}, ERROR=0, FUNCTION={of}
+END
+"""
+    results = simulate(read(deck), end=1.0, steps=10, integrator=method, error=1e-6)
+    assert results.outcome is Outcome.DONE, results.message
+    for sensor in ("SENSOR/1", "SENSOR/2"):
+        assert results.meta["sensor passed"].count(f"{sensor} at t = 0.5") == 1
+    assert "later" not in results.meta["sensor passed"]

@@ -17,6 +17,8 @@ from adamslite.native.translate import native, rare
 
 # Steps below this share of the run are round-off of the time.
 LEAST_STEP = 1e-14
+# A pace of so many of these can be fitted to a stop: half of it is not too short.
+DIVISIBLE = 4.0
 # Further from an output time than this many steps they need not fit.
 MANY_STEPS = 100.0
 # What a number of steps may exceed a whole one by without one step more.
@@ -36,8 +38,8 @@ def set_pace(P: Problem, t: float) -> None:
 
 @native
 def longest_step(P: Problem) -> float:
-    """HMAX, or what the present pace leaves of it; round-off of the time is no pace."""
-    pace = max(P.paces[P.search.pace_at].longest, least_step(P))
+    """HMAX, or what the present pace leaves of it, but not round-off of the time."""
+    pace = max(P.paces[P.search.pace_at].longest, DIVISIBLE * least_step(P))
     return min(P.settings.h_max, pace)
 
 

@@ -48,10 +48,10 @@ def note_try(P: Problem, C: StepControl, order: int) -> None:
 @native
 def end_of_step(P: Problem, C: StepControl, limit: float) -> float:
     """The time at which the tried step ends: ``limit`` where it all but reaches that, or leaves
-    less of it than the shortest step.
+    less of it than two of the shortest steps.
     """
     t = C.t + C.h
-    return limit if t + max(ALMOST * C.h, least_step(P)) > limit else t
+    return limit if t + max(ALMOST * C.h, 2.0 * least_step(P)) > limit else t
 
 
 @native
