@@ -249,9 +249,7 @@ class Statement:
         raise FrozenInstanceError(f"cannot assign to field {name!r}")
 
     def __repr__(self) -> str:
-        # What stands for another statement, as the roller of a CVCV, has the spans of that one.
-        known = (name for name in self.spans if name in self.field_names)
-        given = ", ".join(f"{name}={getattr(self, name)!r}" for name in known)
+        given = ", ".join(f"{n}={getattr(self, n)!r}" for n in self.spans if n in self.field_names)
         return f"<{self.label} {given}>"
 
     @cached_property

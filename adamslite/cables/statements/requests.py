@@ -10,7 +10,7 @@ from adamslite.cables.statements.pieces import Piece, is_between, pieces, root_m
 from adamslite.cables.statements.span_statements import side_of, spring
 from adamslite.cables.statements.supports import hanging_half, support_request
 from adamslite.cables.statements.wheel_spans import is_heavy, tension_at
-from adamslite.cables.statements.wheels import is_angle, mount_request, travel, turning
+from adamslite.cables.statements.wheels import is_rim, mount_request, travel, turning
 
 # A tension below this strain is none, and no ratio is taken with it.
 SLACK = 1e-12
@@ -69,7 +69,7 @@ def _over(spec: Spec, spans: list[FreeSpan], model: CableModel, found: list[Piec
     if each.leans:
         parts.append(f"F4=JOINT({n},0,1,0)")
         title += ", load on the axle"
-    if is_angle(i, spec):
+    if is_rim(i, spec):
         parts += [f"F4={turning(i, spec)}", f"F6={turning(i, spec, 1)}"]
         title += ", angle of the wheel and its rate"
     if each.payout:

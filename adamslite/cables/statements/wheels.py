@@ -42,6 +42,8 @@ def arm(i: int, spec: Spec, sense: int = 1) -> str:
 def rolled(i: int, spec: Spec, order: int = 0, sense: int = 1) -> str:
     """Way of the rim of wheel i along the route [m], or its time derivative."""
     each, n = spec.route[i], spec.marker(i)
+    if is_rim(i, spec):
+        return (f"DIF(rolled_{n})", f"DIF(rolls_{n})")[order]
     text = f"{arm(i, spec, sense)}*{turning(i, spec, order)}"
     if not each.reel or order == 1:
         return text
@@ -61,16 +63,17 @@ def _growth(i: int, spec: Spec) -> float:
 def turning(i: int, spec: Spec, order: int = 0) -> str:
     """Angle of wheel i about its axle, or its time derivative."""
     n = spec.marker(i)
-    if is_angle(i, spec):
-        return (f"DIF(turn_{n})", f"DIF(spin_{n})")[order]
+    if is_rim(i, spec):
+        return f"{rolled(i, spec, order)}/({arm(i, spec)})"
     # Rates are along the axes of ground unless a third marker is there.
     seen = "" if _is_upright(spec.route[i]) and not spec.route[i].on else f",{n + 1}"
     return (f"AZ({n},{n + 1})", f"WZ({n},{n + 1}{seen})", f"WDTZ({n},{n + 1}{seen})")[order]
 
 
-def is_angle(i: int, spec: Spec) -> bool:
-    """Whether wheel i is no part, but its angle: nothing but the friction of a cable that grips it
-    and that of its bearing on the ground turns it, and rows of such wheels may be long."""
+def is_rim(i: int, spec: Spec) -> bool:
+    """Whether wheel i is no part, but the way of its rim: nothing but the friction of a cable that
+    grips it and that of its bearing on the ground turns it, and rows of such wheels may be long.
+    """
     each = spec.route[i]
     fast = not (each.is_mobile or each.leans or each.held)
     return bool(each.grip) and each.kind == "pulley" and spec.slips_at(i) and fast
@@ -81,7 +84,7 @@ def wheel(spec: Spec, i: int, speed: float = 0.0) -> str:
     each, n = spec.route[i], spec.marker(i)
     own = "" if _is_upright(each) else f", ZP={triple(each.axis)}"
     text = f"\n! The {each.kind} of station {spec.station(i)}, R = {number(each.radius)} m.\n"
-    if is_angle(i, spec):
+    if is_rim(i, spec):
         return text + _on_bearing(each, n, n)
     if each.is_mobile and not each.on:
         text += _mount(each, each.mount, n) if each.mount else _carriage(spec, i)

@@ -10,7 +10,7 @@ switch   a SENSOR, which holds what it has seen: S reached low or high
 
 from adamslite.cables.description.vocabulary import Spec, Station
 from adamslite.cables.statements.forms import number
-from adamslite.cables.statements.wheels import STICKS, arm, is_angle, own_names, rolled, turning
+from adamslite.cables.statements.wheels import STICKS, arm, is_rim, own_names, rolled, turning
 
 # Displacement of a rim at which its brake holds with its torque [m]; time in which it lets go [s].
 BRAKE_GRIP, LETS_GO = 1e-4, 0.01
@@ -21,15 +21,15 @@ FEWEST_POINTS, FAR = 4, 1e3
 
 
 def _bearing(spec: Spec, i: int) -> tuple[str, str]:
-    """Share of the friction of a bearing that acts, and the state that it needs: the capstan's laws
-    for the speed and the displacement of the rim."""
-    each, n, spin = spec.route[i], spec.marker(i), turning(i, spec, 1)
+    """The state that the friction of a bearing needs, and its torque: the capstan's laws for the
+    speed and the displacement of the rim."""
+    each, n = spec.route[i], spec.marker(i)
     if not each.grip:
-        return "", f"STEP({spin},-0.01,-1,0.01,1)"
-    r = number(each.radius)
+        return "", f"-{number(each.friction)}*STEP({turning(i, spec, 1)},-0.01,-1,0.01,1)"
+    speed = rolled(i, spec, 1)
     share = f"DIF(rests_{n})/{number(each.grip)}"
-    rate = f"{r}*{spin}*(1-TANH({r}*{spin}/{STICKS:g})*{share})"
-    return f"DIFF/rests_{n}, FUNCTION={rate}\n", share
+    rate = f"{speed}*(1-TANH({speed}/{STICKS:g})*{share})"
+    return f"DIFF/rests_{n}, FUNCTION={rate}\n", f"{number(-each.turn * each.friction)}*{share}"
 
 
 def drive(spec: Spec, i: int, torques: list[str]) -> str:
@@ -42,9 +42,9 @@ def drive(spec: Spec, i: int, torques: list[str]) -> str:
     sense = spec.outwards(i)
     out = arm(i, spec, sense)
     if each.friction:
-        more, share = _bearing(spec, i)
+        more, torque = _bearing(spec, i)
         text += more
-        torques.append(f"-{number(each.friction)}*{share}")
+        torques.append(torque)
     if each.reel:
         text += f"SFORCE/{n + 3}, ROTATIONAL, ACTIONONLY, I={n}, J={n + 1}"
         text += f", FUNCTION=-J_{n}*{turning(i, spec, 2)}\n"
@@ -74,15 +74,16 @@ def drive(spec: Spec, i: int, torques: list[str]) -> str:
 
 
 def _turned(spec: Spec, i: int, torque: str) -> str:
-    """What a torque does to wheel i: to a part, or by J w' = torque to its angle."""
+    """What a torque does to wheel i: to a part, or by J v'/R = torque to the speed v of its rim,
+    which is an error of the step as the speed of the cable is, however small the wheel."""
     each, n = spec.route[i], spec.marker(i)
-    if not is_angle(i, spec):
+    if not is_rim(i, spec):
         only = "" if each.mount else ", ACTIONONLY"
         return f"SFORCE/{n}, ROTATIONAL{only}, I={n}, J={n + 1}\n, FUNCTION={torque}\n"
     return (
-        "! Angle and angular velocity of the wheel.\n"
-        f"DIFF/turn_{n}, FUNCTION=DIF(spin_{n})\n"
-        f"DIFF/spin_{n}, FUNCTION=({torque})/{number(each.inertia)}\n"
+        "! Way and speed of the rim of the wheel along the route.\n"
+        f"DIFF/rolled_{n}, FUNCTION=DIF(rolls_{n})\n"
+        f"DIFF/rolls_{n}, FUNCTION={arm(i, spec)}*({torque})/{number(each.inertia)}\n"
     )
 
 
