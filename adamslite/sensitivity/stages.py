@@ -46,8 +46,11 @@ from adamslite.sensitivity.tangents import put_direction, tangent
 
 # Rows of a history: the start of the step, three stages, their rates, and behind them z.
 RATE_ROWS, ROWS = 3, 7
-# Increments stop at this share of ERROR, and of what they are against; and after so many.
-SHARE, LEAST, MOST = 1e-2, 1e-12, 20
+# Increments stop at this share of ERROR against sensitivities and what velocities are in a step,
+# or where they are round-off; and after so many.
+SHARE, LEAST, MOST = 1e-2, 1e-15, 30
+# Increments that shrink no further than this are round-off, below that share.
+STALLED, ROUND_OFF = 0.5, 1e-6
 # Derivatives serve for so many steps, while increments take no more iterations than this.
 # the step is done again with new ones where it takes many.
 KEEP_STEPS, QUICK, SLOW = 20, 5, 12
@@ -136,8 +139,8 @@ def ready(P: Problem, L: Plan, S: Forward, h: float) -> bool:
 
 @native
 def solve_stages(P: Problem, L: Plan, D: Tangents, S: Forward, number: int, h: float) -> int:
-    """Sensitivities at the stages; the iterations that they took, beyond ``MOST`` when they are no
-    numbers.
+    """Sensitivities at the stages; the iterations that they took, beyond ``MOST`` when increments
+    do not come to nothing.
     """
     H, w = S.history[number * S.room :], S.width
     guess(P, S, H, h)
@@ -147,15 +150,16 @@ def solve_stages(P: Problem, L: Plan, D: Tangents, S: Forward, number: int, h: f
         stage_tangents(P, D, S, number, H)
         stage_increments(P, L)
         size = apply(P, H, w)
-        if not size < HUGE:
-            return MOST + 1
-        limit = max(SHARE * P.settings.error, LEAST) * scale(P, H)
-        if size <= limit or (turn > 2 and size > 0.5 * last):
+        reach = max(scale(P, H, 0, P.sizes.n), scale(P, H, 2 * P.sizes.n, w))
+        small = min(reach, h * scale(P, H, P.sizes.n, w))
+        if size <= max(SHARE * P.settings.error * small, LEAST * reach):
             motion(P, S, H, h)
             return turn + 1
+        if turn > 1 and not size < STALLED * last:
+            motion(P, S, H, h)
+            return turn + 1 if size <= ROUND_OFF * reach else MOST + 1
         last = size
-    motion(P, S, H, h)
-    return MOST
+    return MOST + 1
 
 
 @native
@@ -245,14 +249,12 @@ def apply(P: Problem, H: Reals, w: int) -> float:
 
 
 @native
-def scale(P: Problem, H: Reals) -> float:
-    """What increments are small against: the largest of the start and the stages."""
+def scale(P: Problem, H: Reals, first: int, last: int) -> float:
+    """The largest of the start and the stages, of entries ``first`` .. ``last``."""
     w, largest = 2 * P.sizes.n + P.sizes.ns, 1e-300
     for row in range(4):
-        for i in range(P.sizes.n):
+        for i in range(first, last):
             largest = max(largest, abs(H[row * w + i]))
-        for k in range(P.sizes.ns):
-            largest = max(largest, abs(H[row * w + 2 * P.sizes.n + k]))
     return largest
 
 
