@@ -20,6 +20,7 @@ from adamslite.results.formats import formats
 from adamslite.results.results import Results
 from adamslite.results.source import source_of
 from adamslite.sweeps import netcdf
+from adamslite.sweeps.recognition import holds_sweep
 from adamslite.sweeps.record import Sweep
 
 if TYPE_CHECKING:
@@ -110,7 +111,7 @@ def _sweep_of(given: object) -> Sweep | None:
     if isinstance(given, Sweep):
         return given
     path = isinstance(given, os.PathLike) or (isinstance(given, str) and "\n" not in given)
-    return netcdf.read(Path(given)) if path and netcdf.holds_sweep(Path(given)) else None  # type: ignore[arg-type]
+    return netcdf.read(Path(given)) if path and holds_sweep(Path(given)) else None  # type: ignore[arg-type]
 
 
 def _png(figure: Figure) -> bytes:

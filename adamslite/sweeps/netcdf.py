@@ -17,7 +17,6 @@ are what the runs were made from (:mod:`adamslite.sweeps.origin`).
 from __future__ import annotations
 
 import json
-import struct
 from collections.abc import Iterable
 from io import BytesIO
 from pathlib import Path
@@ -29,12 +28,12 @@ from adamslite.errors import FormatError, UsageError
 from adamslite.outputs.netcdf import TEXT, VERSION, identifier
 from adamslite.outputs.whole_files import whole_file
 from adamslite.sweeps.job import SUMMARY
+from adamslite.sweeps.recognition import DAMAGED
 from adamslite.sweeps.record import Sweep
 
 #: A variable of the format has less than 4 GB.
 LARGEST = 2**32 - 4
 NUMBER, MEASURE, COUNTER, HISTORY = "number", "measure", "counter", "history"
-DAMAGED = (ValueError, TypeError, IndexError, KeyError, OverflowError, AttributeError, struct.error)
 
 
 def need_room(runs: int, samples: int) -> None:
@@ -122,19 +121,6 @@ def _words(file: Any, name: str, words: list[str]) -> None:
     variable = file.createVariable(name, "c", ("run", f"{name}_letters"))
     variable[:] = np.array(letters, dtype=f"S{width}").view("S1").reshape(len(words), width)
     variable._Encoding = TEXT.encode()
-
-
-def holds_sweep(path: str | Path) -> bool:
-    """Whether a file is there and has been written by :func:`write`."""
-    from scipy.io import netcdf_file
-
-    if Path(path).suffix.lower() != ".nc" or not Path(path).is_file():
-        return False
-    try:
-        with netcdf_file(path, "r") as file:
-            return "sweep" in file._attributes
-    except (*DAMAGED, OSError):
-        return False
 
 
 def read(path: str | Path) -> Sweep:

@@ -63,7 +63,7 @@ def run(args: argparse.Namespace) -> int:
     from adamslite.plots.style import need_matplotlib, need_suffix, save
     from adamslite.plots.time_histories import plot
     from adamslite.results.results import UnknownChannel
-    from adamslite.sweeps.netcdf import holds_sweep
+    from adamslite.sweeps.recognition import holds_sweep
     from adamslite.verification.reference_file import read_reference
 
     need_matplotlib()

@@ -70,7 +70,7 @@ def run(args: argparse.Namespace) -> int:
     from adamslite.errors import UsageError
     from adamslite.outputs.whole_files import need_writable
     from adamslite.results.results import Results
-    from adamslite.sweeps.netcdf import holds_sweep
+    from adamslite.sweeps.recognition import holds_sweep
 
     kind = _kind(args)
     output = _output(args, kind)
