@@ -209,6 +209,31 @@ def test_a_run_that_makes_no_model_fails_by_name_and_the_others_go_on(path, caps
     assert np.isnan(found[LOWEST]).tolist() == [False, True, False]
 
 
+def test_a_run_that_ends_before_its_first_output_is_kept_and_the_others_go_on() -> None:
+    """A body with hinges 1 apart fits points of ground that are 1 apart, and none that are 5."""
+    deck = """a body between two hinges
+UNITS/SYSTEM=MKS
+PART/1, GROUND
+MARKER/1, PART=1
+MARKER/2, PART=1, QP=1,0,0
+PART/2, MASS=1, CM=5, IP=1,1,1
+MARKER/3, PART=2
+MARKER/4, PART=2, QP=1,0,0
+MARKER/5, PART=2
+JOINT/1, SPHERICAL, I=3, J=1
+JOINT/2, SPHERICAL, I=4, J=2
+SIMULATE/DYNAMIC, END=0.1, STEPS=2
+END
+"""
+    found = al.sweep(
+        deck, {"MARKER/2.QP[0]": [1, 5, 1]}, measures=["max PART/2.x"], outputs="PART/2.x"
+    )
+    assert found.failed == [1] and found.outcomes[1] not in ("DONE", "FAULT")
+    assert found.messages[1]
+    assert np.isnan(found["max PART/2.x"]).tolist() == [False, True, False]
+    assert found.samples.tolist() == [3, 0, 3]
+
+
 @pytest.mark.parametrize(
     ("words", "told"),
     [

@@ -91,8 +91,8 @@ class Job:
     def _kept(self, number: int, results: Results) -> Run:
         time, stopped = results.time, not results.outcome.is_requested
         summary = tuple(float(results.summary[each]) for each in SUMMARY)
-        measures = tuple(each.of(time, results[each.channel]) for each in self.measures)
-        columns = [results[each] for each in self.channels]
+        measures = tuple(each.of(time, _column(results, each.channel)) for each in self.measures)
+        columns = [_column(results, each) for each in self.channels]
         histories = np.column_stack(columns) if columns else np.empty((len(time), 0))
         message = results.message if stopped else ""
         ending = AHEAD if results.outcome is Outcome.INTERRUPTED else results.outcome.name
@@ -116,3 +116,8 @@ class Job:
                 kernels_of(prepared_for(varied, self.commands), None, without, False)
             except (DeckError, UsageError):
                 continue
+
+
+def _column(results: Results, name: str) -> np.ndarray:
+    """A column (nt,); of a run that ended before its first output there are none, and no times."""
+    return results[name] if results.names else results.time
