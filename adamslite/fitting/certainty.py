@@ -118,6 +118,12 @@ def certainty(
     )  # fmt: skip
 
 
+def unknown(names: Sequence[str]) -> Certainty:
+    """What is known where there are no derivatives."""
+    nothing = np.full((len(names), len(names)), np.nan)
+    return Certainty(nothing, nothing, (), np.zeros(0), 0.0)
+
+
 def _whole(found: np.ndarray, places: np.ndarray, count: int) -> np.ndarray:
     """A matrix of some of the numbers as one of all (np, np)."""
     whole = np.full((count, count), np.nan)

@@ -23,6 +23,8 @@ from adamslite.fitting.measured import Measured
 
 #: Changes of the sum of squares, and of coordinates, below which nothing is gained any more.
 LEAST_GAIN, LEAST_STEP = 1e-8, 1e-8
+#: A search has not come to its end where a step would take away this share of the squares.
+MUCH = 1e-3
 #: So many trial points at most.
 MOST_TRIALS = 100
 #: What coordinates are held to their start with, as a share of the largest singular value.
@@ -136,10 +138,19 @@ class Search:
             return best, f"no derivatives at {self._told(best)}: {fault}"
         if found.status == 0:
             return found.x, f"not settled after {MOST_TRIALS} trials"
-        failed = self.known.get(self.values(tried[-1]))
-        if found.status == 3 and isinstance(failed, Failed):
-            return found.x, f"stopped beside {self._told(tried[-1])}, where runs fail: {failed}"
-        return found.x, ""
+        return found.x, self._barred(tried, found)
+
+    def _barred(self, tried: Sequence[np.ndarray], found: Any) -> str:
+        """What has kept a search from its end: runs that fail, where a step would gain more."""
+        failed = [x for x in tried if isinstance(self.known.get(self.values(x)), Failed)]
+        if not failed:
+            return ""
+        free = found.jac[:, found.active_mask == 0]
+        step = np.linalg.lstsq(free, -found.fun, rcond=None)[0]
+        if np.sum((free @ step) ** 2) < MUCH * np.sum(found.fun**2):
+            return ""
+        fault = self.known[self.values(failed[-1])]
+        return f"stopped beside {self._told(failed[-1])}, where runs fail: {fault}"
 
     def _bounds(self) -> tuple[np.ndarray, np.ndarray]:
         """Lowest and highest coordinates (np,)."""

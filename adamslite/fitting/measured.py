@@ -61,6 +61,10 @@ class Measured:
         found[:, turning] -= TURN * np.round(np.nan_to_num(found[:, turning]) / TURN)
         return found
 
+    def rms(self, curves: np.ndarray) -> np.ndarray:
+        """Root mean square of what each curve is off (nc,)."""
+        return np.asarray(np.sqrt(np.nanmean(self.apart(curves) ** 2, axis=0)))
+
     @property
     def turning(self) -> np.ndarray:
         """Which channels are angles that may have whole turns more or less (nc,)."""

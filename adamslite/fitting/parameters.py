@@ -22,7 +22,7 @@ Bounds = Mapping[str, tuple[float | None, float | None] | str] | Iterable[str]
 #: The exponential of more has no number.
 LARGEST = 700.0
 #: Of bounds as a text.
-FORM = "write NAME=LOW:HIGH, as SPRINGDAMPER/1.K=50:500; either may be left out"
+FORM = "for bounds write NAME=LOW:HIGH, as SPRINGDAMPER/1.K=50:500; either may be left out"
 
 
 @dataclass(frozen=True)
@@ -89,6 +89,9 @@ def parameters_of(
     twice = next((name for n, name in enumerate(own) if name in own[:n]), None)
     if twice:
         raise UsageError(f"--by {twice}: it is there twice")
+    whole = next((each.name for each in found if each.argument.kind == "integer"), None)
+    if whole:
+        raise UsageError(f"{whole} takes whole numbers, which are not fitted")
     limits = {numbers.find(name).name: limit for name, limit in _limits(bounds)}
     for name in limits:
         if name not in own:
@@ -131,7 +134,7 @@ def _pair(name: str, limit: Any) -> tuple[float, float]:
         low, high = limit
         return _number(-inf if low is None else low), _number(inf if high is None else high)
     except (TypeError, ValueError):
-        raise UsageError(f"--bounds {name}={limit}: {FORM}") from None
+        raise UsageError(f"{name}={limit}: {FORM}") from None
 
 
 def _written(text: str) -> tuple[str, tuple[float, float]]:
@@ -140,9 +143,9 @@ def _written(text: str) -> tuple[str, tuple[float, float]]:
     try:
         pair = (_number(low.strip() or -inf), _number(high.strip() or inf))
     except ValueError:
-        raise UsageError(f"--bounds {text}: {FORM}") from None
+        raise UsageError(f"{text}: {FORM}") from None
     if not equal or not colon or not name.strip():
-        raise UsageError(f"--bounds {text}: {FORM}")
+        raise UsageError(f"{text}: {FORM}")
     return name.strip(), pair
 
 

@@ -142,8 +142,10 @@ class Fit:
 
     @property
     def is_told(self) -> bool:
-        """Whether the measurement tells all numbers."""
-        return not self.certainty.untold
+        """Whether the measurement tells all numbers that are not at a bound."""
+        pairs = zip(self.parameters, self.values, self.errors, strict=True)
+        known = all(np.isfinite(error) or each.at_bound(value) for each, value, error in pairs)
+        return known and not self.certainty.untold
 
     @property
     def text(self) -> str:

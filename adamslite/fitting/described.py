@@ -1,0 +1,156 @@
+"""The record of a fit: how sure its numbers are, and what there is to say about them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from adamslite.fitting.certainty import Certainty, certainty, unknown
+from adamslite.fitting.curves import Failed, Runs, error_of
+from adamslite.fitting.derivatives import Curves, Derivatives
+from adamslite.fitting.least_squares import Search
+from adamslite.fitting.measured import Measured
+from adamslite.fitting.record import Fit, Residual
+from adamslite.results.results import Results
+from adamslite.variation.decks import with_values
+
+#: The last look at a fit has runs whose ERROR is smaller by this, with wider differences.
+TIGHTER, WIDER = 0.1, 2.0
+#: What is told: numbers that the runs' own errors move by this part of a standard error,
+MOVED = 0.1
+#: residuals of neighbouring times that are so much alike, numbers that are so much smaller now.
+ALIKE, VANISHED = 0.3, 1e-3
+COARSE = (
+    "what ERROR={:g} leaves in the runs is more than the residuals: standard errors do not count it"
+)
+
+
+def described(
+    search: Search, before: Results, x: np.ndarray, stopped: str, notes: list[str]
+) -> Fit:
+    """The record of a fit that has ended at ``x`` (np,)."""
+    runs, measured = search.runs, search.measured
+    values = np.array(search.values(x))
+    results = runs.results(values.tolist())
+    curves = runs.sampled(results, measured)
+    found, said = _judged(search, values, results, stopped)
+    numbers = dict(zip((each.name for each in runs.parameters), values.tolist(), strict=True))
+    return Fit(
+        parameters=tuple(runs.parameters), values=values,
+        errors=_sizes(runs, values) * np.sqrt(np.diag(found.covariance)), certainty=found,
+        residuals=tuple(_residuals(curves, measured, results)),
+        deck=with_values(runs.deck, {**runs.given, **numbers}), results=results, before=before,
+        measured=measured, curves=curves, sigmas=search.sigmas, runs=runs.count,
+        derivatives=str(search.derivatives), stopped=stopped,
+        notes=tuple(filter(None, [*notes, *said, *_vanished(runs, values)])),
+    )  # fmt: skip
+
+
+def _sizes(runs: Runs, values: np.ndarray) -> np.ndarray:
+    """What relative changes of numbers are parts of (np,)."""
+    pairs = zip(runs.parameters, values, strict=True)
+    return np.array([abs(value) or each.scale for each, value in pairs])
+
+
+def _judged(
+    search: Search, values: np.ndarray, results: Results, stopped: str
+) -> tuple[Certainty, list[str]]:
+    """How sure the numbers are, and sentences on what stands against it."""
+    runs, measured, sigmas = search.runs, search.measured, search.sigmas
+    names, error = [each.name for each in runs.parameters], error_of(results)
+    try:
+        own = search.derivatives.at(values.tolist())
+    except Failed as fault:
+        return unknown(names), [] if stopped else [f"how sure it is cannot be told: {fault}"]
+    tight, said = _tighter(search.derivatives, values, error)
+    residuals, sizes = search.residuals(own.values), _sizes(runs, values)
+    jacobian, other = (_relative(each, measured, sigmas, sizes) for each in (own, tight or own))
+    free = ~np.array([p.at_bound(v) for p, v in zip(runs.parameters, values, strict=True)])
+    found = certainty(jacobian, jacobian - other, residuals, names, free)
+    moved = search.residuals(tight.values) - residuals if tight else np.zeros(len(residuals))
+    shares = np.sqrt(np.diag(found.covariance))
+    said += _moved(jacobian, moved, shares, names, error)
+    coarse = np.linalg.norm(moved) > np.linalg.norm(residuals)
+    return found, [*said, *([COARSE.format(error)] if coarse else _alike(residuals, measured))]
+
+
+def _tighter(
+    derivatives: Derivatives, values: np.ndarray, error: float
+) -> tuple[Curves | None, list[str]]:
+    """Curves and derivatives with a smaller ERROR and wider differences."""
+    try:
+        return derivatives.at(values.tolist(), WIDER, error=TIGHTER * error), []
+    except Failed:
+        pass
+    said = ["runs with a smaller ERROR fail: how much ERROR moves the numbers is not known"]
+    try:
+        return derivatives.at(values.tolist(), WIDER), said
+    except Failed:
+        return None, said
+
+
+def _relative(
+    curves: Curves, measured: Measured, sigmas: np.ndarray, sizes: np.ndarray
+) -> np.ndarray:
+    """Derivatives of the residuals by relative changes (n, np)."""
+    return np.asarray((curves.derivatives / sigmas[:, :, None] * sizes)[measured.known])
+
+
+def _moved(
+    jacobian: np.ndarray, moved: np.ndarray, errors: np.ndarray, names: list[str], error: float
+) -> list[str]:
+    """Numbers that a smaller ERROR would move, to first order."""
+    told = np.isfinite(errors)
+    if not told.any() or not moved.any():
+        return []
+    change = np.linalg.lstsq(jacobian[:, told], -moved, rcond=None)[0]
+    with np.errstate(divide="ignore"):
+        shares = np.abs(change) / errors[told]
+    own = [name for name, is_told in zip(names, told, strict=True) if is_told]
+    worst = int(np.argmax(shares))
+    if not MOVED < shares[worst] < np.inf:
+        return []
+    return [
+        f"ERROR={error:g} moves {own[worst]} by about {shares[worst]:.2g} standard errors; a "
+        f"smaller --error keeps it out of the fit"
+    ]
+
+
+def _alike(residuals: np.ndarray, measured: Measured) -> list[str]:
+    """Channels whose residuals at neighbouring times are alike."""
+    table = np.full(measured.values.shape, np.nan)
+    table[measured.known] = residuals
+    notes = []
+    for name, column in zip(measured.channels, table.T, strict=True):
+        own = column[np.isfinite(column)]
+        size = float(own @ own)
+        if len(own) < 20 or size == 0.0:
+            continue
+        share = float(own[1:] @ own[:-1]) / size
+        if share > max(ALIKE, 3.0 / np.sqrt(len(own))):
+            notes.append(
+                f"{name}: residuals of neighbouring times are alike (correlation {share:.2f}): the "
+                "deck leaves something out, or the noise is filtered, and standard errors are too "
+                "small"
+            )
+    return notes
+
+
+def _vanished(runs: Runs, values: np.ndarray) -> list[str]:
+    """Numbers that keep their sign and have gone to zero."""
+    return [
+        f"{p.name} has gone to {v:.3g}: it is zero, or --bounds {p.name}=LOW:HIGH with LOW below "
+        f"zero lets it become negative"
+        for p, v in zip(runs.parameters, values, strict=True)
+        if p.is_log and v < VANISHED * p.start and not p.at_bound(v)
+    ]
+
+
+def _residuals(curves: np.ndarray, measured: Measured, results: Results) -> list[Residual]:
+    found, table, rms = [], measured.apart(curves), measured.rms(curves)
+    for k, name in enumerate(measured.channels):
+        known = measured.known[:, k]
+        own, band = table[known, k], measured.bands[known, k]
+        share = np.sqrt(np.mean((own / band) ** 2)) if band.all() else np.nan
+        unit = results.channel(name).unit
+        found.append(Residual(name, float(rms[k]), float(share), len(own), unit))
+    return found
