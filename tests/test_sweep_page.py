@@ -5,6 +5,7 @@ The mass falls from rest at y = 5: after t seconds it is at 5 + g t^2/2, whateve
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -120,6 +121,26 @@ def test_chosen_runs_and_channels_alone_are_in_the_page(path: Path) -> None:
     assert table["runs"] == [1, 3, 5]
     names = [each["name"] for each in runs[0]["channels"]["list"]]
     assert "REQUEST/1.F2" in names and all(name.startswith("REQUEST/1.") for name in names)
+
+
+def test_runs_that_are_ahead_are_not_in_the_page() -> None:
+    sweep = swept()
+    sweep.outcomes[1] = sweep.outcomes[2] = ""
+    _, table, runs = described(page_of_sweep(sweep)[0])
+    assert table["runs"] == [0, 3, 4, 5] and len(runs) == 4
+
+
+def test_an_interruption_ends_all_runs(monkeypatch: pytest.MonkeyPatch) -> None:
+    sweep, carried = swept(), list[Any]()
+
+    def interrupted(*given: Any, **options: Any) -> al.Results:
+        carried.append(given)
+        return replace(al.simulate(DECK), outcome=al.Outcome.INTERRUPTED)
+
+    monkeypatch.setattr(motions, "simulate", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        page_of_sweep(sweep)
+    assert len(carried) == 1
 
 
 def test_many_runs_have_fewer_frames_and_channels(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -29,6 +29,7 @@ from adamslite.model.reduction import kept_apart
 from adamslite.page.page import page_of_scene
 from adamslite.progress import Progress
 from adamslite.reading.read import commands_of
+from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 from adamslite.results.selection import selected
 from adamslite.sweeps.job import FAULT, INVALID
@@ -218,6 +219,8 @@ class _Again:
         except (DeckError, UsageError, RunFailed):
             self.others.append(number)
             return None
+        if results.outcome is Outcome.INTERRUPTED:
+            raise KeyboardInterrupt
         if not len(results.time):
             return None
         if results.outcome.name != sweep.outcomes[number] or not self._agrees(number, results):

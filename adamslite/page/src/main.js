@@ -63,7 +63,7 @@ class Show {
             return;
         }
         this.runs = new Runs(archive.list(scene.runs), (run) => this.#run(run));
-        this.nothing = h("p", { class: "failure", hidden: true });
+        this.nothing = h("p", { class: "failure", role: "status", hidden: true });
         const root = document.getElementById("app");
         root.classList.add("sweep");
         root.append(this.runs.element, this.nothing);
