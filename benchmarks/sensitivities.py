@@ -31,7 +31,7 @@ SCENES = {
     "pendulum-gcon/pendulum-gcon": {"end": 1.0, "steps": 40},
     "conical-pendulum/conical-pendulum": {"end": 2.0, "steps": 40},
     "four-bar/four-bar": {"end": 0.5, "steps": 50},
-    "slider-crank/slider-crank": {"end": 0.5, "steps": 50},
+    "slider-crank/slider-crank": {"end": 0.05, "steps": 25},
     "bricard/bricard": {"end": 0.5, "steps": 25},
     "growing-mass-spring/growing-mass-spring": {"end": 1.0, "steps": 50},
     "heavy-top/heavy-top": {"end": 0.5, "steps": 50},

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import adamslite as al
+from adamslite.cli.main import main
 from adamslite.errors import UsageError
 
 SPRING = """m x'' = -k (x - 1) - c x', let go at x = 2 at rest
@@ -95,3 +96,75 @@ def test_a_number_that_nothing_uses_has_zeros_and_a_word():
 def test_mistakes_are_told(by, of, options, words):
     with pytest.raises(UsageError, match=words):
         al.sensitivities(SPRING, [by], [of], **RUN, **options)
+
+
+ROPE = """ten masses on a stiff rope, of which one starts a little off
+PART/1, GROUND
+MARKER/1, PART=1
+POINT_MASS/2, MASS=1, CM=2, QG=1,0,0
+MARKER/2, POINT_MASS=2
+POINT_MASS/3, MASS=1, CM=3, QG=2,0,0
+MARKER/3, POINT_MASS=3
+SPRINGDAMPER/1, TRANSLATIONAL, I=2, J=1, K=1E6, LENGTH=1
+SPRINGDAMPER/2, TRANSLATIONAL, I=3, J=2, K=1E6, LENGTH=1
+VFORCE/1, I=3, JFLOAT=4, RM=1, FX=0\\FY=SIN(TIME)\\FZ=0
+MARKER/4, PART=1, FLOATING
+END
+"""
+
+
+def test_a_vibration_that_the_steps_of_the_run_do_not_resolve_is_told():
+    """A length sets the rope off; the run itself is quiet, and its steps are long."""
+    asked = ["SPRINGDAMPER/1.LENGTH"], ["POINT_MASS/3.x"]
+    coarse = al.sensitivities(ROPE, *asked, end=1.0, steps=10, error=1e-4)
+    assert coarse.errors[0] > 0.01
+    assert "coarse" in coarse.notes["SPRINGDAMPER/1.LENGTH"]
+    fine = al.sensitivities(SPRING, ["SPRINGDAMPER/1.K"], ["POINT_MASS/2.x"], **RUN)
+    assert fine.errors[0] < 1e-7
+    assert not fine.notes
+
+
+def test_a_number_of_a_table_is_told():
+    deck = """a spring by a table
+PART/1, GROUND
+MARKER/1, PART=1
+POINT_MASS/2, MASS=2, CM=2, QG=2,0,0
+MARKER/2, POINT_MASS=2
+SPLINE/1, X=0,1,2,3, Y=3,1,-1,-4
+VFORCE/1, I=2, JFLOAT=4, RM=1, FX=AKISPL(DX(2,1),0,1)\\FY=0\\FZ=0
+MARKER/4, PART=1, FLOATING
+END
+"""
+    with pytest.raises(UsageError, match="number of a table"):
+        al.sensitivities(deck, ["SPLINE/1.Y[1]"], ["POINT_MASS/2.x"], end=1.0, steps=10)
+
+
+def test_angles_of_parts_and_other_values_of_a_deck_that_was_varied():
+    """A part turns about z at 2 rad/s: psi = 2 t, and of a deck with other numbers alike."""
+    deck = al.read(
+        "a part that turns\nPART/1, GROUND\nMARKER/1, PART=1\n"
+        "PART/2, MASS=1, CM=2, IP=1,1,1, WZ=2\nMARKER/2, PART=2\n"
+        "JOINT/1, REVOLUTE, I=2, J=1\nEND\n"
+    )
+    for speed in (2.0, 5.0):
+        varied = deck.with_values({"PART/2.WZ": speed})
+        found = al.sensitivities(varied, ["PART/2.WZ"], ["PART/2.psi"], end=1.0, steps=4)
+        assert found.at == [speed]
+        assert found.curve("PART/2.psi", "PART/2.WZ") == pytest.approx(found.time, abs=1e-9)
+
+
+def test_the_command_prints_a_table_and_writes_histories(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "spring.adm").write_text(SPRING)
+    words = ["sens", "spring.adm", "--end", "3", "--steps", "60", "--error", "1e-8"]
+    words += ["--by", "SPRINGDAMPER/1.K", "unused", "-o", "x.csv"]
+    assert main([*words, "--of", "POINT_MASS/2.x@end"]) == 0
+    printed = capsys.readouterr()
+    found = al.sensitivities(SPRING, ["SPRINGDAMPER/1.K"], ["POINT_MASS/2.x@end"], **RUN)
+    assert f"{found.gradient[0, 0]:.10f}"[:8] in printed.out
+    assert "no equation" in printed.err
+    written = al.Results.load("x.csv")["POINT_MASS/2.x by SPRINGDAMPER/1.K"]
+    slopes = found.curve("POINT_MASS/2.x", "SPRINGDAMPER/1.K")
+    assert np.abs(written - slopes).max() <= 1e-6
+    assert main([*words, "--of", "POINT_MASS/2.q"]) == 2
+    assert "did you mean" in capsys.readouterr().err

@@ -73,6 +73,7 @@ class Forward(Record):
     h, order             of the last step
     stages               (3 W.size,) workspaces of the stages of a step
     age, factored        steps since matrices were made; the step that they are factored for
+    spent, top           (2 np,) of places and velocities: sums of estimated errors, the largest
     grazed               events whose time has no derivative
     """
 
@@ -95,4 +96,6 @@ class Forward(Record):
     order: int
     age: int
     factored: float
+    spent: Reals
+    top: Reals
     grazed: int

@@ -18,6 +18,7 @@ from __future__ import annotations
 from adamslite.integrators.accelerations import factor_accelerations
 from adamslite.integrators.bdf.dense_output import interpolate
 from adamslite.integrators.bdf.differences import change_step, extend_history, extrapolate, gamma
+from adamslite.integrators.bdf.state import tests_velocities
 from adamslite.integrators.contract import DONE, SINGULAR_MASS, Problem
 from adamslite.integrators.implicit.formulation import equations_kept, is_stabilised
 from adamslite.integrators.linalg.blocks import factor, solve
@@ -102,6 +103,7 @@ def step(P: Problem, L: Plan, D: Tangents, S: Forward, here: Reals) -> bool:
         solved(P, L, D, S, number, cu, here)
         for i in range(w):
             psi[i] = y[i] - yp[i]
+        note_error(P, S, number, y, psi, order)
         extend_history(H, psi, w, order)
     S.h, S.order = h, order
     return True
@@ -135,6 +137,20 @@ def solved(
     spun(P, y, v, -1.0, y[n:])
     if is_stabilised(P):
         add_multipliers(P, S, y[n:], here)
+
+
+@native
+def note_error(P: Problem, S: Forward, number: int, y: Reals, change: Reals, order: int) -> None:
+    """Add the error estimate of the formula, d/(k + 1), of places and of velocities, the latter
+    where that of the run is tested.
+    """
+    n = P.sizes.n
+    for part in range(2 if tests_velocities(P) else 1):
+        error, top = 0.0, 0.0
+        for i in range(part * n, (part + 1) * n):
+            error, top = max(error, abs(change[i])), max(top, abs(y[i]))
+        S.spent[2 * number + part] += error / (order + 1)
+        S.top[2 * number + part] = max(S.top[2 * number + part], top)
 
 
 @native

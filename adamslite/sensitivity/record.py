@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -28,6 +28,9 @@ class Sensitivities:
         Names of the nm measures; ``values`` (nm,), ``gradient`` (nm, np).
     notes : mapping
         Words about numbers, by their names, and about the run.
+    errors : numpy.ndarray
+        (np,) what derivatives of places and velocities are estimated to be off by, against the
+        largest; not-a-number where nothing is known, by RADAU.
     """
 
     by: tuple[str, ...]
@@ -38,6 +41,7 @@ class Sensitivities:
     values: np.ndarray
     gradient: np.ndarray
     notes: Mapping[str, str]
+    errors: np.ndarray = field(default_factory=lambda: np.zeros(0))
 
     @property
     def time(self) -> np.ndarray:

@@ -42,6 +42,13 @@ TABLE = "{name} is a number of a table: there is no derivative by it yet"
 SENSED = "A SENSOR ended the run: derivatives where the end itself moves are not worked out"
 # A hair, as a share of the distance of the values that are taken.
 NUDGE = 1e-6
+COARSE = (
+    "the steps of the run are coarse for it: derivatives are off by some {error:.1g} of the "
+    "largest, a smaller ERROR is needed"
+)
+GRAZED = "the motion only touches what changes a branch: nothing is known behind such an event"
+# Estimates from here on are told.
+DOUBTFUL = 0.01
 # Turns of a part by which its angles are differentiated.
 TURN = 1e-5
 # Numbers of derivatives that are held at a time.
@@ -221,7 +228,7 @@ def sensitivities(
     session = study.session(Taped, study.kernels)
     made: dict[str, Any] = {}
 
-    def follow(system: System, method: str) -> np.ndarray:
+    def follow(system: System, method: str) -> None:
         if system.triggered:
             raise UsageError(SENSED)
         size = system.nw + system.sizes.n_out
@@ -230,15 +237,18 @@ def sensitivities(
         measures, kept = asked(of, names) if of else ([], [*range(len(names))])
         lot = max(1, MOST_HELD // max(record.size, 1))
         found = directions(system, not (session.assembled or session.speeds))
-        curves = []
+        curves: list[np.ndarray] = []
+        errors: list[float] = []
         for at in range(0, len(found), lot):
-            slopes = followed(system, method, found[at : at + lot])
-            curves += [_columns(system, record, each)[:, kept] for each in slopes]
+            along = followed(system, method, found[at : at + lot])
+            curves += [_columns(system, record, each)[:, kept] for each in along.record]
+            errors += along.errors.tolist()
+            made["grazed"] = along.grazed
         made.update(names=names, values=values, kept=kept, measures=measures, curves=curves)
+        made["errors"] = np.array(errors)
         made["time"] = system.times.copy()
         pairs = zip(named, found, strict=True)
         made["still"] = [each.name for each, one in pairs if not one.moves(system)]
-        return np.zeros(0)
 
     session.follow = follow
     session.execute(study.plan)
@@ -262,11 +272,14 @@ def _gathered(
         [slope(m, time, results[m.channel], curve[:, at[m.channel]]) for curve in curves]
         for m in measures
     ]).reshape(len(measures), len(named))  # fmt: skip
-    notes = dict.fromkeys(made["still"], UNUSED)
+    off = zip(named, made["errors"], strict=True)
+    notes = {n.name: COARSE.format(error=error) for n, error in off if error > DOUBTFUL}
+    notes |= dict.fromkeys(made["still"], UNUSED)
+    notes |= {"events": GRAZED} if made["grazed"] else {}
     return Sensitivities(
         tuple(n.name for n in named), np.array([n.value for n in named]), results, curves,
         tuple(map(str, measures)), np.array([m.of(time, results[m.channel]) for m in measures]),
-        gradient, notes,
+        gradient, notes, made["errors"],
     )  # fmt: skip
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from adamslite.equations.engine import address_of
 from adamslite.errors import UsageError
 from adamslite.integrators.bdf.history import room
 from adamslite.integrators.contract import AUDIT, DONE
+from adamslite.integrators.linalg.plan import TINY
 from adamslite.integrators.radau.history import Y_ROWS
 from adamslite.integrators.tape_record import TAPE_HEAD
 from adamslite.results.outcomes import Outcome
@@ -31,6 +32,8 @@ FORMULAS = {
     "GSTIFF": "adamslite.sensitivity.differences.by_differences",
     "RADAU": "adamslite.sensitivity.stages.by_stages",
 }
+#: Whether a formula estimates errors of sensitivities.
+ESTIMATED = {"GSTIFF": True, "RADAU": False}
 WITHOUT = "derivatives are worked out along the steps of {known}; {method} is none of them"
 SEVERAL = (
     "derivatives are those of one dynamic analysis: here a second one follows (several SIMULATE, "
@@ -38,6 +41,17 @@ SEVERAL = (
 )
 # Rows of a first tape, and how much longer the next one is.
 FIRST_ROWS, LONGER = 1000, 8
+
+
+class Along(NamedTuple):
+    """Derivatives of the record (np, nt, nw + n_out), and what they may be off by (np,), as a share
+    of the largest place or velocity; not-a-number where nothing is known; events whose time has no
+    derivative.
+    """
+
+    record: np.ndarray
+    errors: np.ndarray
+    grazed: int
 
 
 class Ready(Exception):
@@ -61,14 +75,14 @@ class Probe(Session):
 class Taped(Session):
     """Follows the tape of a run with ``follow(system)``."""
 
-    follow: Callable[[System, str], np.ndarray]
-    sensitive: np.ndarray | None = None
+    follow: Callable[[System, str], None]
+    followed = False
 
     def _take(self, choice: MethodChoice) -> None:
         super()._take(allowed(choice))
 
     def _integrated(self, system: System, times: np.ndarray, apart: float) -> Outcome:
-        if self.sensitive is not None:
+        if self.followed:
             raise UsageError(SEVERAL)
         settings, rows = self.chosen.settings, FIRST_ROWS
         beginning = Beginning(system)
@@ -83,7 +97,8 @@ class Taped(Session):
             beginning.return_to()
         if outcome is Outcome.DONE:
             system.instances.remember(beginning.memories)
-            self.sensitive = self.follow(system, settings.method)
+            self.followed = True
+            self.follow(system, settings.method)
         system.tape.width = 0
         return outcome
 
@@ -125,8 +140,8 @@ def _stages(system: System) -> int:
     return Y_ROWS * (2 * system.n + system.ns) + 3 * z
 
 
-def followed(system: System, method: str, found: Iterable[Direction]) -> np.ndarray:
-    """Derivatives of the record (np, nt, nw + n_out) along the tape.
+def followed(system: System, method: str, found: Iterable[Direction]) -> Along:
+    """Derivatives of the record along the tape.
 
     Raises
     ------
@@ -145,6 +160,7 @@ def followed(system: System, method: str, found: Iterable[Direction]) -> np.ndar
         "start": np.zeros(count * ROWS * w + 1), "state": np.zeros((ROWS + 2) * w),
         "z": np.zeros(system.m + system.nv + 1), "sd": np.zeros(system.ns + 1),
         "stages": np.zeros(3 * system.W.size), "guard": np.zeros(system.W.size),
+        "spent": np.zeros(2 * count), "top": np.zeros(2 * count),
         "rate": np.zeros(w), "jump": np.zeros(w),
         "record": np.zeros(count * len(system.times) * size + 1),
     }  # fmt: skip
@@ -155,7 +171,9 @@ def followed(system: System, method: str, found: Iterable[Direction]) -> np.ndar
     code = run(problem.address, plan.address, collected.record.address, made.address)
     if code != DONE:
         raise UsageError("derivatives are not determined where the equations are singular")
-    return made.record[:-1].reshape(count, len(system.times), size)
+    shares = made.spent / np.maximum(made.top, TINY)
+    known = shares.reshape(count, 2).max(axis=1) if ESTIMATED[method] else np.full(count, np.nan)
+    return Along(made.record[:-1].reshape(count, len(system.times), size), known, made.grazed)
 
 
 def _native(entry: str) -> Any:
