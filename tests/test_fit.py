@@ -30,6 +30,7 @@ import adamslite as al
 from adamslite.cli.main import main
 from adamslite.errors import RunFailed
 from adamslite.fitting import derivatives
+from adamslite.fitting.certainty import certainty
 from adamslite.fitting.parameters import Parameter
 
 
@@ -114,6 +115,11 @@ def test_times_that_no_output_meets_are_interpolated() -> None:
     found = al.fit(deck, table(time, x=swinging(time)), by=[K, C])
     assert found.values == pytest.approx([200, 2], rel=1e-4)
     assert any("interpolated" in note for note in found.notes)
+    few = al.fit(al.read("swings.adm", values={"SIMULATE.STEPS": 20}),
+                 table(time, x=swinging(time) + noisy(80, 1e-4)), by=[K, C])  # fmt: skip
+    assert any("interpolation between output times is off" in note for note in few.notes)
+    exact = al.fit(deck, table(time, x=swinging(time) + noisy(80, 1e-4)), by=[K, C])
+    assert not any("is off by" in note for note in exact.notes)
 
 
 def test_output_steps_are_chosen_that_meet_the_measured_times() -> None:
@@ -170,6 +176,29 @@ def test_a_number_without_influence_is_named_and_the_others_are_told() -> None:
     (untold,) = other.certainty.untold
     assert [*untold.parts] == ["POINT_MASS/2.QG[1]"]
     assert other.errors[:2] == pytest.approx(found.errors, rel=1e-3)
+
+
+def test_numbers_that_are_told_only_poorly_apart_are_named() -> None:
+    """S = [[1, 1], [0, e]] n times: of p1 + p2 the variance is s^2/n, of p2 alone s^2/(n e^2)."""
+    n, e = 400, 0.02
+    jacobian = np.tile([[1.0, 1.0], [0.0, e]], (n, 1))
+    residuals = np.tile([1.0, -1.0, -1.0, 1.0], n // 2)
+    nothing, free = np.zeros_like(jacobian), np.array([True, True])
+    found = certainty(jacobian, nothing, residuals, ["a", "b"], free)
+    s2 = 2 * n / (2 * n - 2)
+    expected = s2 / n * np.array([[1 + e**-2, -(e**-2)], [-(e**-2), e**-2]])
+    assert found.covariance == pytest.approx(expected, rel=1e-9)
+    (weak,) = found.untold
+    assert not weak.is_untold and weak.parts == pytest.approx({"a": 1.0, "b": -1.0}, rel=1e-3)
+    assert weak.error == pytest.approx(np.sqrt(np.linalg.eigvalsh(expected)[-1]))
+    assert "cannot tell a and b apart" in str(weak)
+    # where the Jacobian is off by as much as the second number differs from the first
+    off = np.tile([[0.0, 0.0], [0.0, e]], (n, 1))
+    (lost,) = certainty(jacobian, off, residuals, ["a", "b"], free).untold
+    assert lost.is_untold and lost.parts == pytest.approx({"a": 1.0, "b": -1.0}, rel=1e-3)
+    held = certainty(jacobian, off, residuals, ["a", "b"], np.array([True, False]))
+    assert held.covariance[0, 0] == pytest.approx(2 * n / (2 * n - 1) / n)
+    assert not held.untold
 
 
 def test_a_number_at_its_bound_has_no_standard_error() -> None:

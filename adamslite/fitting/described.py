@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from adamslite.fitting.certainty import Certainty, certainty, unknown
 from adamslite.fitting.curves import Failed, Runs, error_of
 from adamslite.fitting.derivatives import Curves, Derivatives
 from adamslite.fitting.least_squares import Search
-from adamslite.fitting.measured import Measured
+from adamslite.fitting.measured import Measured, amplitudes
 from adamslite.fitting.record import Fit, Residual
 from adamslite.results.results import Results
 from adamslite.variation.decks import with_values
@@ -19,6 +21,8 @@ TIGHTER, WIDER = 0.1, 2.0
 MOVED = 0.1
 #: residuals of neighbouring times that are so much alike, numbers that are so much smaller now.
 ALIKE, VANISHED = 0.3, 1e-3
+#: Residuals are looked at where there are so many, larger than this share of the amplitude.
+FEWEST, ROUNDING = 20, 1e-8
 COARSE = (
     "what ERROR={:g} leaves in the runs is more than the residuals: standard errors do not count it"
 )
@@ -69,8 +73,10 @@ def _judged(
     moved = search.residuals(tight.values) - residuals if tight else np.zeros(len(residuals))
     shares = np.sqrt(np.diag(found.covariance))
     said += _moved(jacobian, moved, shares, names, error)
-    coarse = np.linalg.norm(moved) > np.linalg.norm(residuals)
-    return found, [*said, *([COARSE.format(error)] if coarse else _alike(residuals, measured))]
+    if np.linalg.norm(moved) > np.linalg.norm(residuals):
+        return found, [*said, COARSE.format(error)]
+    said += _interpolated(runs, results, own.values, measured)
+    return found, [*said, *_alike(residuals, own.values, measured)]
 
 
 def _tighter(
@@ -115,16 +121,17 @@ def _moved(
     ]
 
 
-def _alike(residuals: np.ndarray, measured: Measured) -> list[str]:
-    """Channels whose residuals at neighbouring times are alike."""
+def _alike(residuals: np.ndarray, curves: np.ndarray, measured: Measured) -> list[str]:
+    """Channels whose residuals (n,) at neighbouring times are alike, and more than rounding."""
     table = np.full(measured.values.shape, np.nan)
     table[measured.known] = residuals
+    counts = measured.rms(curves) > ROUNDING * amplitudes(measured)
     notes = []
-    for name, column in zip(measured.channels, table.T, strict=True):
+    for name, column, is_more in zip(measured.channels, table.T, counts, strict=True):
         own = column[np.isfinite(column)]
-        size = float(own @ own)
-        if len(own) < 20 or size == 0.0:
+        if len(own) < FEWEST or not is_more:
             continue
+        size = float(own @ own)
         share = float(own[1:] @ own[:-1]) / size
         if share > max(ALIKE, 3.0 / np.sqrt(len(own))):
             notes.append(
@@ -133,6 +140,25 @@ def _alike(residuals: np.ndarray, measured: Measured) -> list[str]:
                 "small"
             )
     return notes
+
+
+def _interpolated(
+    runs: Runs, results: Results, curves: np.ndarray, measured: Measured
+) -> list[str]:
+    """Channels whose curves between output times are off by a share of the residuals.
+
+    A spline through every second output is off by some sixteen times that.
+    """
+    if not runs.interpolate:
+        return []
+    every = np.union1d(np.arange(0, len(results.time), 2), [len(results.time) - 1])
+    coarse = replace(results, time=results.time[every], values=results.values[every])
+    off = np.sqrt(np.mean((runs.sampled(coarse, measured) - curves) ** 2, axis=0)) / 16.0
+    return [
+        f"{name}: interpolation between output times is off by {each:.2g}; more --steps help"
+        for name, each, rms in zip(measured.channels, off, measured.rms(curves), strict=True)
+        if each > MOVED * rms
+    ]
 
 
 def _vanished(runs: Runs, values: np.ndarray) -> list[str]:
