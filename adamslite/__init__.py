@@ -40,6 +40,7 @@ _HOME = {
     "compile_model": "kernels.compile",
     "fit": "api.fits",
     "fmt": "api.tools",
+    "gradient": "api.sensitivities",
     "help": "api.tools",
     "html": "notebooks.html",
     "indices": "api.sweeps",

@@ -9,6 +9,7 @@ from importlib import import_module
 from typing import Any
 
 import numpy as np
+from pullbacks import compare_pullbacks
 from scipy.special import ellipk
 from tangents import compare_tangents
 
@@ -264,6 +265,7 @@ def assert_derivatives(scene: System, phases: int, tolerance: float = 2e-7) -> N
     compare_derivatives(scene, phases, 3, "d/d(lam, V)", tolerance)
     compare_derivatives(scene, phases, 4, "d/ds'", tolerance)
     compare_tangents(scene, phases)
+    compare_pullbacks(scene, phases)
 
 
 def compare_derivatives(

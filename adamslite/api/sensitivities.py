@@ -10,6 +10,8 @@ from typing import Any
 from adamslite.analyses.subject import Subject
 from adamslite.api.inputs import CommandSource, User, inputs
 from adamslite.progress import Progress, progress_of
+from adamslite.sensitivity.adjoint import ALL
+from adamslite.sensitivity.adjoint import gradient as swept
 from adamslite.sensitivity.record import Sensitivities
 from adamslite.sensitivity.study import sensitivities as worked_out
 
@@ -67,3 +69,58 @@ def sensitivities(
     options = {name: each for name, each in flags.items() if each is not None}
     with closing(progress_of(progress)) as shown:
         return worked_out(given.subject, by, of, given.commands, shown, **options)
+
+
+def gradient(
+    scene: Subject | str | os.PathLike[str],
+    of: Iterable[str],
+    by: Iterable[str] | str = ALL,
+    end: float | None = None,
+    steps: int | None = None,
+    integrator: str | None = None,
+    formulation: str | None = None,
+    error: float | None = None,
+    hmax: float | None = None,
+    commands: CommandSource = None,
+    user: User = None,
+) -> Sensitivities:
+    """Derivatives of measures of a dynamic run by many numbers of its deck, by a sweep from the end
+    of the run to its beginning.
+
+    They are those of :func:`adamslite.sensitivities` to round-off, and cost some runs for each
+    measure, however many numbers there are.
+
+    Parameters
+    ----------
+    scene : str, Path, Deck, Model or Kernels
+        As for :func:`adamslite.simulate`.
+    of : iterable of str
+        Measures, ``max REQUEST/1.F2`` or ``PART/2.x@end``, as for
+        :func:`adamslite.sensitivities`.
+    by : iterable of str
+        Names of numbers; ``all``: every number on which equations may hang.
+    end, steps, integrator, formulation, error, hmax, commands, user
+        As for :func:`adamslite.simulate`.
+
+    Returns
+    -------
+    Sensitivities
+        ``g["max REQUEST/1.F2", "SPRINGDAMPER/1.K"]``, ``g.gradient`` (nm, np) with ``g.values``
+        (nm,); there are no curves.
+
+    Raises
+    ------
+    DeckError
+        With everything that is wrong in deck and commands.
+    UsageError
+        When a name or a measure is none, or the run has no derivatives.
+    RunFailed
+        When it ends early.
+    """
+    given = inputs(scene, commands, user)
+    flags = {
+        "end": end, "steps": steps, "integrator": integrator, "formulation": formulation,
+        "error": error, "hmax": hmax,
+    }  # fmt: skip
+    options = {name: each for name, each in flags.items() if each is not None}
+    return swept(given.subject, of, by, given.commands, **options)

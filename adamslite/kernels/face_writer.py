@@ -55,6 +55,12 @@ class FaceWriter:
 
         return write_tangents(self._shape(), name, self.face, n_ints)
 
+    def pullback(self, name: str, n_ints: int) -> str:
+        """LLVM text of what carries weights of rows back; ``n_ints``: integers of an instance."""
+        from adamslite.kernels.code.pullback_writer import write_pullback
+
+        return write_pullback(self._shape(), name, self.face, n_ints)
+
     def _shape(self) -> Shape:
         from adamslite.kernels.code.shape import Shape
 

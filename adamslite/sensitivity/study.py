@@ -138,7 +138,7 @@ class Study:
         quick = {each.name for each in named if known.is_load(each) or known.is_mass(each)}
         slow = [each for each in named if each.name not in quick]
         if slow:
-            self._put_beside(slow)
+            self.put_beside(slow)
             known, named = Known(self.kernels), self.named(each.name for each in named)
         made: dict[str, Direction] = {}
         if slow:
@@ -159,7 +159,7 @@ class Study:
 
         return found
 
-    def _put_beside(self, named: list[Named]) -> None:
+    def put_beside(self, named: list[Named]) -> None:
         """Put a hair beside its value what has another form there."""
         base = [group.name for group in self.kernels.groups]
         beside = {}

@@ -39,8 +39,9 @@ SEVERAL = (
     "derivatives are those of one dynamic analysis: here a second one follows (several SIMULATE, "
     "or a SENSOR from which the analysis continues)"
 )
-# Rows of a first tape, and how much longer the next one is.
-FIRST_ROWS, LONGER = 1000, 8
+# Rows of a first tape, or as many as take so many bytes (which are there once they are written),
+# and how much longer the next one is.
+FIRST_ROWS, FIRST_BYTES, LONGER = 1000, 250_000_000, 8
 
 
 class Along(NamedTuple):
@@ -84,7 +85,8 @@ class Taped(Session):
     def _integrated(self, system: System, times: np.ndarray, apart: float) -> Outcome:
         if self.followed:
             raise UsageError(SEVERAL)
-        settings, rows = self.chosen.settings, FIRST_ROWS
+        settings = self.chosen.settings
+        rows = max(FIRST_ROWS, FIRST_BYTES // (8 * _width(system, settings.method)))
         beginning = Beginning(system)
         while True:
             make_ready(system, times, apart, settings)
@@ -126,12 +128,18 @@ def lay_tape(system: System, rows: int, method: str) -> None:
     tape, audit = system.tape, system.audit
     tape.rows, tape.full = 0, False
     tape.kept = _stages(system) if method == "RADAU" else 0
-    tape.width = TAPE_HEAD + system.W.size + 9 * len(system.model.bodies) + tape.kept
+    tape.width = _width(system, method)
     tape.data = np.zeros(rows * tape.width)
     for name in ("previous", "previous_before"):
         setattr(audit, name, np.zeros(system.W.size))
     audit.on = True
     system.run(AUDIT)
+
+
+def _width(system: System, method: str) -> int:
+    """Numbers of a row."""
+    kept = _stages(system) if method == "RADAU" else 0
+    return TAPE_HEAD + system.W.size + 9 * len(system.model.bodies) + kept
 
 
 def _stages(system: System) -> int:

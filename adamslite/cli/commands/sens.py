@@ -5,14 +5,23 @@
 numbers (`adamslite names` lists them). A table of derivatives is printed; -o OUT writes the
 histories of derivatives of all these columns, `PART/2.x by SPRINGDAMPER/1.K`. They are worked out
 along the steps of the run, by GSTIFF or RADAU, and are about as exact as the run itself.
+--adjoint works back from the end of the run: the effort grows with the measures, not with the
+numbers, of which `--by all` takes every one.
 """
+
+from __future__ import annotations
 
 import argparse
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from adamslite.cli.commands.codes import DONE, STOPPED_EARLY
 from adamslite.run_flags import add_user_flag, add_values_flag, count, positive
+
+if TYPE_CHECKING:
+    from adamslite.scene import Scene
+    from adamslite.sensitivity.record import Sensitivities
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -26,6 +35,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--by", metavar="NAME", nargs="+", action="extend", required=True,
         help="numbers: SPRINGDAMPER/1.K, L_0; may be repeated",
+    )  # fmt: skip
+    parser.add_argument(
+        "--adjoint", action="store_true",
+        help="for many numbers: from the end of the run to its beginning, by GSTIFF; `--by all`",
     )  # fmt: skip
     parser.add_argument("-o", "--output", metavar="OUT", help="file of histories (.csv, .nc, ...)")
     parser.add_argument(
@@ -45,20 +58,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Work derivatives out and print them; return the exit code."""
-    from adamslite.errors import RunFailed
+    from adamslite.errors import RunFailed, UsageError
     from adamslite.outputs.whole_files import need_writable
     from adamslite.results.formats import format_of
     from adamslite.scene import load_scene
-    from adamslite.sensitivity.study import sensitivities
 
     scene = load_scene(args.deck, args.commands, args.user, args.values)
+    if args.output and args.adjoint:
+        raise UsageError(f"-o {args.output}: --adjoint gives numbers, and no histories")
     if args.output:
         format_of(args.output)
         need_writable(args.output, scene.read, True)
     flags = ("end", "steps", "integrator", "formulation", "error", "hmax")
     options = {name: getattr(args, name) for name in flags if getattr(args, name) is not None}
     try:
-        found = sensitivities(scene.deck, args.by, args.of, scene.commands, **options)
+        found = _found(args, scene, options)
     except RunFailed as fault:
         sys.stderr.write(f"adamslite: {fault}\n")
         return STOPPED_EARLY
@@ -72,3 +86,15 @@ def run(args: argparse.Namespace) -> int:
     elif not len(found.measures):
         sys.stderr.write("columns have histories of derivatives: -o OUT writes them\n")
     return DONE
+
+
+def _found(args: argparse.Namespace, scene: Scene, options: dict[str, Any]) -> Sensitivities:
+    """The derivatives, forwards or backwards."""
+    if not args.adjoint:
+        from adamslite.sensitivity.study import sensitivities
+
+        return sensitivities(scene.deck, args.by, args.of, scene.commands, **options)
+    from adamslite.sensitivity.adjoint import ALL, gradient
+
+    by = ALL if args.by == [ALL] else args.by
+    return gradient(scene.deck, args.of, by, scene.commands, **options)

@@ -113,7 +113,7 @@ def write_kernels(
         "added_mass": is_added_mass(shape, scope, out),
         "along_axes": is_along_axes(scope, out),
     }
-    return _module(bodies, n_ints, shape.n_reals), meta
+    return loop_text(bodies, n_ints, shape.n_reals), meta
 
 
 def _touches(shape: Shape, scope: Scope) -> list[tuple[int, bool]]:
@@ -152,7 +152,8 @@ def _of_guards(shape: Shape, scope: Scope, name: str) -> Iterator[Body]:
             yield f"{name}_{kind}", RESIDUAL_HEAD, writer
 
 
-def _module(bodies: list[Body], n_ints: int, n_reals: int) -> str:
+def loop_text(bodies: list[Body], n_ints: int, n_reals: int) -> str:
+    """LLVM text of kernels that go through instances of ``n_ints`` integers, ``n_reals`` reals."""
     declared, parts = definitions(
         REGISTERED[name] for name in sorted({name for *_, w in bodies for name in w.b.called})
     )

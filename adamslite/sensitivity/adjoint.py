@@ -1,0 +1,120 @@
+"""Gradients: the derivatives of a measure of a run by any number of its deck, by one sweep back.
+
+A run keeps its tape, the measure is differentiated by what was written, and a sweep from the end of
+the tape to its beginning (:mod:`adamslite.sensitivity.adjoint_sweep`) gives the derivatives by all
+numbers of the equations at once: its effort does not grow with how many are asked for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from adamslite.analyses.simulation import explained
+from adamslite.equations.result_columns import columns
+from adamslite.errors import RunFailed, UsageError
+from adamslite.results.outcomes import Outcome
+from adamslite.results.results import Results
+from adamslite.sensitivity.adjoint_columns import Columns, Seed, weights_of
+from adamslite.sensitivity.adjoint_numbers import Chain
+from adamslite.sensitivity.adjoint_sweep import Sweep
+from adamslite.sensitivity.measures import asked
+from adamslite.sensitivity.record import Sensitivities
+from adamslite.sensitivity.study import SENSED, Study
+from adamslite.sensitivity.taped import Taped
+
+if TYPE_CHECKING:
+    from adamslite.analyses.subject import Subject
+    from adamslite.deck.redefinition import Command
+    from adamslite.equations.system import System
+    from adamslite.reading.numbers import Named
+
+ALL = "all"
+METHOD = "GSTIFF"
+ONLY = "gradients go back along the steps of GSTIFF; {method} is followed forwards alone"
+MEASURE = "a gradient is that of a measure, as 'max REQUEST/1.F2' or 'PART/2.x@end'"
+NUMBERS = "a gradient by what? `adamslite names DECK` lists numbers"
+NO_RUN = "derivatives are those of a dynamic analysis, and there is none"
+
+
+def gradient(
+    scene: Subject,
+    of: Iterable[str],
+    by: Iterable[str] | str = ALL,
+    commands: Iterable[Command] = (),
+    **options: Any,
+) -> Sensitivities:
+    """Derivatives of measures of a deck, a model or kernels; see :func:`adamslite.gradient`."""
+    study = Study(scene, commands, options)
+    chain = Chain(study)
+    named = chain.all() if by == ALL else study.named(by)
+    if not named:
+        raise UsageError(NUMBERS)
+    chain, named = _ready(study, chain, named)
+    session = study.session(Taped, study.kernels)
+    made: dict[str, Any] = {}
+
+    def follow(system: System, method: str) -> np.ndarray:
+        if system.triggered:
+            raise UsageError(SENSED)
+        if method != METHOD:
+            raise UsageError(ONLY.format(method=method))
+        as_drawn = not (session.assembled or session.speeds)
+        made.update(_gradients(chain, system, of, named, as_drawn))
+        return np.zeros(0)
+
+    session.follow = follow
+    session.execute(study.plan)
+    if session.outcome is not Outcome.DONE:
+        raise RunFailed(explained(session))
+    if not made:
+        raise UsageError(NO_RUN)
+    results = Results(
+        time=made["time"], names=made["names"], values=made["columns"],
+        meta={"deck": study.deck.title}, outcome=session.outcome, message="", summary={},
+    )  # fmt: skip
+    return Sensitivities(
+        tuple(n.name for n in named), np.array([n.value for n in named]), results,
+        np.zeros((len(named), 0, 0)), made["measures"], made["values"], made["gradient"], {},
+    )  # fmt: skip
+
+
+def _ready(study: Study, chain: Chain, named: list[Named]) -> tuple[Chain, list[Named]]:
+    """The chain of numbers, verified; zeros that would change the form are put a hair beside."""
+    chain.verify(named)
+    slow = [each for each in named if not chain.is_direct(each) and each.value == 0.0]
+    if not slow:
+        return chain, named
+    study.put_beside(slow)
+    chain = Chain(study)
+    chain.verify(named)
+    return chain, study.named(each.name for each in named)
+
+
+def _gradients(
+    chain: Chain, system: System, of: Iterable[str], named: list[Named], as_drawn: bool
+) -> dict[str, Any]:
+    """The measures of a run that has just been made, and their derivatives."""
+    size, time = system.nw + system.sizes.n_out, system.times.copy()
+    record = system.record[: len(time) * size].reshape(len(time), size).copy()
+    names, values = columns(system, record)
+    measures, kept = asked(of, names)
+    if not measures:
+        raise UsageError(MEASURE)
+    places, found, numbers = Columns(system), [], []
+    for each in measures:
+        at = names.index(each.channel)
+        weights = weights_of(each, time, values[:, at])
+        numbers.append(each.of(time, values[:, at]))
+        seeds = {int(row): Seed(record[row]) for row in np.flatnonzero(weights)}
+        for row, seed in seeds.items():
+            places.weigh(seed, each.channel, float(weights[row]))
+        found.append(Sweep(system).back(seeds))
+    return {
+        "time": time, "names": tuple(names[k] for k in kept),
+        "columns": np.ascontiguousarray(values[:, kept]),
+        "measures": tuple(map(str, measures)), "values": np.array(numbers),
+        "gradient": np.array([chain.along(system, as_drawn, each, named) for each in found]),
+    }  # fmt: skip

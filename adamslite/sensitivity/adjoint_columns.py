@@ -1,0 +1,158 @@
+"""Measures of a run as weights of what was written: their derivatives by the values of a column."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from adamslite.equations.result_columns import ALIGNED, OF_PART, OF_POINT, column_names
+from adamslite.equations.system import System
+from adamslite.errors import UsageError
+from adamslite.kernels.code.workspace import (
+    ACCELERATION,
+    ALPHA,
+    ATTITUDE,
+    OMEGA,
+    POSITION,
+    VELOCITY,
+)
+from adamslite.model.attitude_angles import angles_313
+from adamslite.sensitivity.measures import END, START, At
+from adamslite.sweeps.measures import Measure
+
+PLACES = {
+    **dict(zip(".x .y .z".split(), range(POSITION, POSITION + 3), strict=True)),
+    **dict(zip(".vx .vy .vz".split(), range(VELOCITY, VELOCITY + 3), strict=True)),
+    **dict(zip(".ax .ay .az".split(), range(ACCELERATION, ACCELERATION + 3), strict=True)),
+    **dict(zip(".wx .wy .wz".split(), range(OMEGA, OMEGA + 3), strict=True)),
+    **dict(zip(".alx .aly .alz".split(), range(ALPHA, ALPHA + 3), strict=True)),
+}
+ANGLES = (".psi", ".theta", ".phi")
+
+
+def trapezoids(time: np.ndarray) -> np.ndarray:
+    """Weights of values in their integral over time."""
+    steps, weights = np.diff(time), np.zeros(len(time))
+    weights[:-1] += 0.5 * steps
+    weights[1:] += 0.5 * steps
+    return weights
+
+
+def _one(n: int, k: int, value: float = 1.0) -> np.ndarray:
+    found = np.zeros(n)
+    found[k] = value
+    return found
+
+
+def _mean(t: np.ndarray, v: np.ndarray) -> np.ndarray:
+    span = t[-1] - t[0]
+    return trapezoids(t) / span if span > 0.0 else _one(len(t), len(t) - 1)
+
+
+def _rms(t: np.ndarray, v: np.ndarray) -> np.ndarray:
+    weights = _mean(t, v)
+    size = np.sqrt(weights @ v**2)
+    return weights * v / size if size > 0.0 else 0.0 * v
+
+
+def _absmax(t: np.ndarray, v: np.ndarray) -> np.ndarray:
+    k = int(np.argmax(np.abs(v)))
+    return _one(len(v), k, float(np.sign(v[k])))
+
+
+WEIGHTS: dict[str, Callable[[np.ndarray, np.ndarray], np.ndarray]] = {
+    "max": lambda t, v: _one(len(v), int(np.argmax(v))),
+    "min": lambda t, v: _one(len(v), int(np.argmin(v))),
+    "absmax": _absmax,
+    "range": lambda t, v: _one(len(v), int(np.argmax(v))) - _one(len(v), int(np.argmin(v))),
+    "mean": _mean,
+    "rms": _rms,
+    "first": lambda t, v: _one(len(v), 0),
+    "final": lambda t, v: _one(len(v), len(v) - 1),
+}
+"""By the word of a measure: its derivatives by the values (nt,)."""
+
+
+def weights_of(measure: Measure | At, time: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """The derivatives of a measure by the values of its column (nt,)."""
+    if isinstance(measure, Measure):
+        return WEIGHTS[measure.kind](time, values)
+    found = np.zeros(len(time))
+    if measure.when in (START, END):
+        found[0 if measure.when == START else -1] = 1.0
+        return found
+    when = float(measure.when)
+    k = min(max(int(np.searchsorted(time, when)), 1), len(time) - 1)
+    share = (when - time[k - 1]) / (time[k] - time[k - 1])
+    found[k - 1], found[k] = 1.0 - share, share
+    return found
+
+
+class Seed:
+    """Weights of what was written at one output time.
+
+    ``out`` (n_out,): of values that statements write; ``places``: of entries of the workspace, of
+    rotations by the first three places of the attitude.  ``state``: the row of the record.
+    """
+
+    def __init__(self, state: np.ndarray) -> None:
+        self.state = state
+        self.out = np.zeros(0)
+        self.places: dict[int, float] = {}
+
+
+class Columns:
+    """Where the columns of results come from."""
+
+    def __init__(self, system: System) -> None:
+        self.system = system
+        self.names = column_names(system.kernels)
+        self.at: dict[str, tuple[str, int]] = {}
+        model = system.model
+        for moving in model.moving:
+            at = system.w_at["BODY", model.body_index[moving.keyword, moving.key]]
+            for suffix in OF_PART if moving.keyword == "PART" else OF_POINT:
+                kind = "angle" if suffix in ANGLES else "state"
+                place = ANGLES.index(suffix) if kind == "angle" else PLACES[suffix]
+                self.at[moving.label + suffix] = (
+                    kind,
+                    100 * at + place if kind == "angle" else at + place,
+                )
+        written = self.names[len(self.at) :]
+        self.at |= {name: ("written", k) for k, name in enumerate(written)}
+
+    def weigh(self, seed: Seed, name: str, weight: float) -> None:
+        """Add the weight of a column."""
+        kind, place = self.at[name]
+        if kind == "written":
+            if not seed.out.size:
+                seed.out = np.zeros(self.system.sizes.n_out + 1)
+            seed.out[place] += weight
+        elif kind == "state":
+            seed.places[place] = seed.places.get(place, 0.0) + weight
+        else:
+            at, which = divmod(place, 100)
+            for c, value in enumerate(self._turning(seed.state, at, which, name)):
+                o = at + ATTITUDE + c
+                seed.places[o] = seed.places.get(o, 0.0) + weight * value
+
+    def _turning(self, state: np.ndarray, at: int, which: int, name: str) -> np.ndarray:
+        """The derivative of a 3-1-3 angle by a rotation in ground axes."""
+        number = next(
+            m
+            for m in self.system.model.moving
+            if self.system.w_at["BODY", self.system.model.body_index[m.keyword, m.key]] == at
+        )
+        attitude = state[at + ATTITUDE : at + ATTITUDE + 9].reshape(3, 3)
+        cm = getattr(number, "cm", None)
+        if cm is not None:
+            attitude = attitude @ self.system.model.marker(cm).axes
+        psi, theta, _ = angles_313(attitude[None], ALIGNED)[0]
+        if abs(np.sin(theta)) <= ALIGNED:  # psi and phi are one angle, about z
+            if which == 1:
+                raise UsageError(f"{name} has no derivative where it is 0 or 180 degrees")
+            return np.array([0.0, 0.0, float(which == 0)])
+        c, s, cot = np.cos(psi), np.sin(psi), np.cos(theta) / np.sin(theta)
+        rows = ((-s * cot, c * cot, 1.0), (c, s, 0.0), (s / np.sin(theta), -c / np.sin(theta), 0.0))
+        return np.array(rows[which])

@@ -1,0 +1,393 @@
+"""The gradient of one number of a run by backward differences, from its end to its beginning.
+
+Sensitivities follow the tape of a run by linear operations
+(:mod:`adamslite.sensitivity.differences`); here are their transposes, in the opposite order (a
+discrete adjoint).  Weights of the history of sensitivities, Dbar, become those before
+
+    output time  y(tau) = sum p_j D_j                       Dbar_j += p_j ybar
+    differences  D' = (history of y)                        ybar = dbar, y_pbar = -dbar
+    step         F_q dq + F_u du + ... + F_p = 0            N^T nu = r(ybar),  pbar -= F_p^T nu
+    prediction   y_p = sum D_i, psi = sum gamma_i D_i/gamma_k
+    step size    D = R D_before                             Dbar_before = R^T Dbar
+    event        du += (a_before - a_behind) dt/dp          dt/dp = -(f_y dy + f_p)/(f_t + f_y y')
+    start        D_1 = h y', y projected onto constraints
+
+with r = (ybar_q + (cu - [w])^T ybar_u, 0, ybar_s, G W ybar_u).  As equations depend on psi and y_p
+through y' alone,
+
+    psibar_q = cu (ybar_u - (F_u + cu F_a)^T nu),  psibar_u = -cu F_a^T nu,
+    psibar_s = -cu F_s'^T nu,       y_pbar -= psibar
+
+References: Griewank, Walther, Evaluating Derivatives, 2008, chapter 15; Cao, Li, Petzold, Serban,
+SIAM J. Sci. Comput. 24 (2003) 1076 (adjoint DAE).
+"""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from adamslite.equations.engine import address_of
+from adamslite.errors import UsageError
+from adamslite.integrators.bdf.history import ROWS
+from adamslite.integrators.contract import (
+    ACCELERATION,
+    ACCELERATIONS,
+    DONE,
+    INDEX3,
+    OUTPUTS,
+    POSITION_ROWS,
+    STABILISED,
+)
+from adamslite.integrators.projection import RATES
+from adamslite.integrators.stepping.output import WITHIN
+from adamslite.integrators.tape_record import (
+    AT_STEP,
+    TAPE_HEAD,
+    TAPE_KIND,
+    TAPE_ORDER,
+    TAPE_RESTARTS,
+    TAPE_STEP,
+    TAPE_TIME,
+)
+from adamslite.kernels.code.workspace import ACCELERATION as ACCELERATION_AT
+from adamslite.kernels.code.workspace import ALPHA, OMEGA
+from adamslite.sensitivity.adjoint_columns import Seed
+from adamslite.sensitivity.adjoint_formula import Row, gammas, ties_of, vector_rates, way_of
+from adamslite.sensitivity.adjoint_weights import Numbers, Slopes, Weights
+from adamslite.sensitivity.begin import AHEAD
+from adamslite.sensitivity.transposed import (
+    ENTRY,
+    FACTOR_RATES,
+    FACTOR_STEP,
+    SOLVE_RATES,
+    SOLVE_STEP,
+    TAKE,
+    TRACK,
+)
+
+if TYPE_CHECKING:
+    from adamslite.equations.system import System
+
+KIND = ctypes.CFUNCTYPE(
+    ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_double
+)
+SINGULAR = "derivatives are not determined where the equations are singular"
+GRAZES = "an event at t = {t:.6g} only just happens: its time has no derivative"
+# A guard that changes by less than this share of its terms changes by round-off.
+GRAZING = 1e-9
+
+
+@dataclass
+class Derivatives:
+    """By the numbers of the equations, and by the state y = (places and turns, velocities, states)
+    at the start.
+    """
+
+    numbers: Numbers
+    start: np.ndarray
+
+
+class Sweep:
+    """From the end of a taped run to its beginning."""
+
+    def __init__(self, system: System) -> None:
+        self.system = system
+        self.weights = Weights(system)
+        self.n, self.first, self.w = system.n, system.m + system.nv, 2 * system.n + system.ns
+        self.held = bool(system.sizes.si2 and system.holonomic)
+        self.phases = STABILISED if self.held else INDEX3
+        self.ties = ties_of(system) if self.held else None
+        problem, plan = system.records()
+        self.native, self.at = KIND(address_of(ENTRY)), (problem.address, plan.address)
+        tape = system.tape
+        self.tape = tape.data[: tape.rows * tape.width].reshape(tape.rows, tape.width)
+        pairs = zip(system.kernels.groups, system.instances.keep[1::2], strict=True)
+        self.memories = [
+            (reals[:-1].reshape(len(each.instances), -1), len(each.instances.columns.params), count)
+            for each, reals in pairs
+            if (count := each.meta["angles"] + each.meta["limits"])
+        ]
+        self.phi, self.spin = self.weights.phi, self.weights.wphi + OMEGA
+        weight = np.array(system.weight, dtype=float)
+        self.weight = np.ones(system.n)
+        self.weight[self.phi] = weight[self.weights.parts][:, None]
+        self.rows = self._rows()
+        self.bar = np.zeros((ROWS, self.w))
+
+    # ---- the tape -----------------------------------------------------------------------------
+
+    def _rows(self) -> list[Row]:
+        """What happens along the tape."""
+        tape, times = self.tape, self.system.times
+        started = int(np.searchsorted(times, tape[0, TAPE_TIME], "right"))
+        found = [Row(False, float(tape[0, TAPE_TIME]), 0.0, 0, 0.0, False, range(started), ())]
+        fresh, before = True, 0.0
+        for k in range(1, len(tape)):
+            t, h, order = (float(tape[k, at]) for at in (TAPE_TIME, TAPE_STEP, TAPE_ORDER))
+            is_step, first = bool(tape[k, TAPE_KIND] == AT_STEP), found[-1].outputs.stop
+            last = int(np.searchsorted(times, t + WITHIN * h, "right")) if is_step else first
+            row = Row(is_step, t, h, int(order), h if fresh else before, fresh and is_step,
+                      range(first, max(first, last)), self._memory())  # fmt: skip
+            found.append(row)
+            if is_step:
+                fresh, before = False, h
+                if self.memories:
+                    self._put(k)
+                    self._do(TRACK)
+            elif k + 1 < len(tape):
+                fresh = bool(tape[k - 1, TAPE_RESTARTS] != tape[k + 1, TAPE_RESTARTS])
+        return found
+
+    def _memory(self) -> tuple[np.ndarray, ...]:
+        return tuple(reals[:, p : p + count].copy() for reals, p, count in self.memories)
+
+    def _remember(self, memory: tuple[np.ndarray, ...]) -> None:
+        for (reals, p, count), values in zip(self.memories, memory, strict=True):
+            reals[:, p : p + count] = values
+
+    def _workspace(self, k: int) -> np.ndarray:
+        return self.tape[k, TAPE_HEAD : TAPE_HEAD + self.system.W.size]
+
+    def _put(self, k: int) -> None:
+        """The workspace of a row; of the first one with the branches of the second."""
+        self.system.W[:] = self._workspace(k)
+        if k == 0:
+            nw = self.system.nw
+            self.system.W[nw:] = self._workspace(1)[nw:] if len(self.tape) > 1 else 0.0
+
+    def _do(self, task: int, cu: float = 0.0) -> None:
+        if self.native(*self.at, task, cu) != DONE:
+            raise UsageError(SINGULAR)
+
+    # ---- the way back -------------------------------------------------------------------------
+
+    def back(self, seeds: Mapping[int, Seed]) -> Derivatives:
+        """``seeds``: weights of what was written at output times, by their numbers."""
+        for k in range(len(self.rows) - 1, 0, -1):
+            row = self.rows[k]
+            self._remember(row.memory)
+            if not row.is_step:
+                self._event(k)
+                continue
+            for output in row.outputs:
+                if output in seeds:
+                    self._output(k, row, output, seeds[output])
+            self._step(k, row)
+            if row.fresh:
+                self._begin(k - 1, row)
+        y = self.bar[0].copy()
+        for output in self.rows[0].outputs:
+            if output in seeds:
+                self._put(0)
+                self._settle(self.rows[0].t)
+                y += self._written(seeds[output])
+        self._project(y)
+        return Derivatives(self.weights.numbers, y)
+
+    def _output(self, k: int, row: Row, output: int, seed: Seed) -> None:
+        """What was written within a step, on the polynomial of its history."""
+        nw = self.system.nw
+        self.system.W[:nw], self.system.W[nw:] = seed.state[:nw], self._workspace(k)[nw:]
+        y = self._written(seed)
+        p, at = 1.0, float(self.system.times[output])
+        self.bar[0] += y
+        for j in range(row.order):
+            p *= (at - row.t + row.h * j) / (row.h * (j + 1))
+            self.bar[j + 1] += p * y
+
+    def _step(self, k: int, row: Row) -> None:
+        """One step."""
+        way = way_of(row.order, row.h / row.h_before)
+        self._put(k)
+        psi = self._corrector(row, way.own @ self.bar)
+        self.bar = way.past @ self.bar
+        self.bar[: row.order + 1] += way.rate[:, None] * psi
+
+    def _corrector(self, row: Row, y: np.ndarray) -> np.ndarray:
+        """Weights of psi from those of y; those of y_p are their opposite."""
+        system, n, first, phi = self.system, self.n, self.first, self.phi
+        cu = float(gammas(row.order)[-1] / row.h)
+        self._do(FACTOR_STEP, cu)
+        yu, F = y[n : 2 * n], system.F
+        F[:] = 0.0
+        F[:n] = y[:n] + cu * yu
+        if len(phi):
+            F[phi] += np.cross(system.W[self.spin], yu[phi])
+        F[n + first : n + first + system.ns] = y[2 * n :]
+        if self.ties is not None:
+            F[: system.nz] += self.ties.mu(system.J, self.weight * yu)
+        sl = self.weights.of_equations(self.phases, self._solved(SOLVE_STEP))
+        psi = np.empty(self.w)
+        psi[:n] = cu * (yu + sl.u + cu * sl.a)
+        psi[n : 2 * n] = cu * sl.a
+        psi[2 * n :] = cu * sl.rd
+        return psi
+
+    def _solved(self, task: int) -> np.ndarray:
+        """-nu of the weights in F."""
+        F, dead = self.system.F, self.system.elimination.dead
+        F[dead] = 0.0
+        self._do(task)
+        nu = -F[: self.system.nz]
+        nu[dead] = 0.0
+        return nu
+
+    def _accelerations(self, sl: Slopes) -> np.ndarray:
+        """Weights of y behind those of accelerations, multipliers, variables and rates, at the
+        state in the workspace.
+        """
+        n, first, F = self.n, self.first, self.system.F
+        y = np.concatenate([sl.q, sl.u, sl.z[first:]])
+        if not (sl.a.any() or sl.z[:first].any() or sl.rd.any()):
+            return y
+        self._do(FACTOR_RATES)
+        F[:] = 0.0
+        F[:n], F[n : n + first], F[n + first : n + first + len(sl.rd)] = sl.a, sl.z[:first], sl.rd
+        found = self.weights.of_equations(ACCELERATION, self._solved(SOLVE_RATES))
+        return y + np.concatenate([found.q, found.u, found.z[first:]])
+
+    def _written(self, seed: Seed) -> np.ndarray:
+        """Weights of y behind what was written of the workspace."""
+        return self._accelerations(self.weights.of_outputs(OUTPUTS, seed.out, seed.places))
+
+    # ---- starts and events --------------------------------------------------------------------
+
+    def _settle(self, t: float) -> None:
+        """Accelerations at the places, velocities and states in the workspace."""
+        self._do(TAKE)
+        self.system.settings.t = t
+        if self.system.run(ACCELERATIONS) != DONE:
+            raise UsageError(SINGULAR)
+
+    def _rates_back(self, rates: np.ndarray, W: np.ndarray) -> np.ndarray:
+        """Weights of y behind those of y' at a workspace: theta' = du + w x theta."""
+        n, phi = self.n, self.phi
+        self.system.W[:] = W
+        nothing = np.zeros(self.first + self.system.ns)
+        sl = Slopes(np.zeros(n), rates[:n].copy(), rates[n : 2 * n], nothing, rates[2 * n :])
+        if len(phi):
+            sl.q[phi] = np.cross(rates[:n][phi], W[self.spin])
+        return self._accelerations(sl)
+
+    def _begin(self, k: int, row: Row) -> None:
+        """A history from derivatives of the motion, at the state of the tape's row ``k``.
+
+        With rates R at the state, N at d, and with S = (N - R)/d for the second derivative N' and F
+        at d and 2 d: second and third are (4 N' - 3 R - F)/(2 d) and (R - 2 N' + F)/d^2.
+        """
+        bar, h, d, y = self.bar, row.h, AHEAD * row.h, self.bar[0].copy()
+        rate = h * bar[1]
+        self._put(k)
+        self._settle(float(self.system.W[0]))
+        here = self.system.W.copy()
+        if row.order > 1:
+            second = h * h * (bar[2] - 0.5 * bar[1])
+            third = h**3 * (bar[1] / 6.0 - bar[2] + bar[3])
+            straight, near, far = self._ahead(d)
+            rate += third / (d * d) - 1.5 * second / d
+            found = self._rates_back(third / (d * d) - 0.5 * second / d, far)
+            y, rate, curve = y + found, rate + 2.0 * d * found, 2.0 * d * d * found
+            found = self._rates_back(2.0 * second / d - 2.0 * third / (d * d), near)
+            y, rate, curve = y + found, rate + d * found, curve + 0.5 * d * d * found
+            found = self._rates_back(curve / d, straight)
+            y, rate = y + found, rate + d * found - curve / d
+        self.bar = np.zeros((ROWS, self.w))
+        self.bar[0] = y + self._rates_back(rate, here)
+
+    def _ahead(self, d: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Workspaces at d on a straight line, at d and 2 d on the parabola, from the state that has
+        just been settled.
+        """
+        n, origin, t = self.n, self._state(), float(self.system.settings.t)
+        rate, second = self._rates(origin), np.zeros(self.w)
+        found: list[np.ndarray] = []
+        for ahead in (d, d, 2.0 * d):
+            x = origin + ahead * (rate + 0.5 * ahead * second)
+            self.system.q[:n], self.system.u[:n] = x[:n], x[n : 2 * n]
+            self.system.z[self.first :][: self.system.ns] = x[2 * n :]
+            self.system.settings.t = t + ahead
+            if self.system.run(ACCELERATIONS) != DONE:
+                raise UsageError(SINGULAR)
+            if not found:
+                second = (self._rates(x) - rate) / d
+            found.append(self.system.W.copy())
+        return found[0], found[1], found[2]
+
+    def _state(self) -> np.ndarray:
+        """(q, u, s) of the unknowns."""
+        system, n = self.system, self.n
+        states = system.z[self.first :][: system.ns]
+        return np.concatenate([system.q[:n], system.u[:n], states])
+
+    def _rates(self, x: np.ndarray) -> np.ndarray:
+        """(q', u', s') at x, the state in place."""
+        system, n = self.system, self.n
+        rates = np.concatenate([system.u[:n], system.a[:n], system.rd[: system.ns]])
+        rates[self.phi] = vector_rates(x[self.phi], system.u[self.phi])
+        return rates
+
+    def _event(self, k: int) -> None:
+        """Sensitivities of velocities and states jump where branches change."""
+        system, n, nw = self.system, self.n, self.system.nw
+        before, behind = self._workspace(k - 1), self._workspace(k)
+        old, new = before[nw:], behind[nw:]
+        count = system.sizes.clocks + system.sizes.watched
+        changed = np.flatnonzero((old != new)[:count] & (old != 0.0)[:count])
+        if not changed.size:
+            return
+        system.W[:] = before
+        self._settle(float(before[0]))
+        weights = self.weights
+        change = np.empty(n + system.ns)
+        change[weights.x] = system.a[weights.x] - behind[weights.wx + ACCELERATION_AT]
+        change[self.phi] = system.a[self.phi] - behind[weights.wphi + ALPHA]
+        change[n:] = system.rd[: system.ns] - behind[weights.rate]
+        total = float(self.bar[0, n:] @ change)
+        if total == 0.0:
+            return
+        speed = self._speed(int(changed[0]), float(before[0]))
+        if speed != 0.0:
+            sl, _ = weights.of_guard(int(changed[0]), -total / speed)
+            self.bar[0] += self._accelerations(sl)
+
+    def _speed(self, guard: int, t: float) -> float:
+        """How fast a guard changes."""
+        system, n, first = self.system, self.n, self.first
+        kept = [each.copy() for each in self.weights.numbers.arrays()]
+        sl, by_time = self.weights.of_guard(guard, 1.0)
+        for each, before in zip(self.weights.numbers.arrays(), kept, strict=True):
+            each[:] = before
+        terms = np.concatenate([
+            sl.q * system.u[:n], sl.u * system.a[:n], sl.z[first:] * system.rd[: system.ns],
+            [by_time],
+        ])  # fmt: skip
+        speed = float(terms.sum())
+        if speed != 0.0 and abs(speed) <= GRAZING * float(np.abs(terms).sum()):
+            raise UsageError(GRAZES.format(t=t))
+        return speed
+
+    def _project(self, y: np.ndarray) -> None:
+        """Velocities, then positions at the start were moved onto the constraints."""
+        system, n = self.system, self.n
+        if system.m == 0:
+            return
+        self._put(0)
+        self._settle(self.rows[0].t)
+        self._do(FACTOR_RATES)
+        mu = system.nz - system.holonomic
+        for level, phases in ((1, RATES), (0, POSITION_ROWS)):
+            system.F[:] = 0.0
+            system.F[:n] = y[level * n : level * n + n]
+            nu = self._solved(SOLVE_RATES)
+            nu[:n] = 0.0
+            nu[n + system.m :] = 0.0
+            if self.held and level:
+                nu[mu:] = nu[n : n + system.holonomic]
+                nu[n : n + system.holonomic] = 0.0
+            sl = self.weights.of_rows(phases, nu)
+            y += np.concatenate([sl.q, sl.u, sl.z[self.first :]])
