@@ -1,5 +1,7 @@
 """Cable over wheels as `adamslite cable` writes them: impact, slip, axles of any direction."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from descriptions import BLOCK, solve
@@ -7,6 +9,7 @@ from formulas import Cable, Impact
 from tiers import slow
 
 import adamslite
+from adamslite.cables.deck.scene import deck
 
 
 @pytest.mark.parametrize("form", ["brute", "ale"])
@@ -161,3 +164,10 @@ def test_a_block_starts_at_rest_under_the_weight_of_its_wheel_too() -> None:
     )
     assert results["REQUEST/1.F2"] == pytest.approx(52 * 9.81 / 2, rel=4e-3)
     assert results["PART/20.y"] == pytest.approx(-2.0, abs=2e-6)
+
+
+@pytest.mark.parametrize("name", ["hoists/late", "described/drum", "described/ring"])
+def test_a_deck_has_no_constants_that_nothing_uses(name: str) -> None:
+    """One section has its length in its law, a rope that hangs nowhere no friction at low speed."""
+    text, _ = deck(Path(f"decks/cables/{name}.toml").read_text(encoding="utf-8"))
+    assert "unused" not in {each.code for each in adamslite.check(text)}

@@ -206,6 +206,7 @@ def test_check_tells_warnings_and_contents(pipeline, capsys) -> None:
     ("argv", "said"),
     [
         (["diff", "no.csv", "cable.adm"], "'no.csv': No such file"),
+        (["diff", "-", "cable.adm"], "'-': No such file or directory; standard input is not read"),
         (["diff", "cable.adm", "cable.adm"], "results cannot be read from cable.adm"),
         (["solve", "cable.adm", "-o", "no/out.csv"], "no such folder"),
         (["solve", "cable.adm", "-o", "."], "it is a folder"),

@@ -187,11 +187,25 @@ def test_all_mistakes_are_told_at_once_and_in_order() -> None:
         (f"MARKER/{'9' * 19}, PART=1", "an id is a number from 1 up, of 18 digits at most"),
         ("VARIABLE/1, FUNCTION=DX(12)", "there is MARKER/1, 2, 3"),
         ("VARIABLE/1, FUNCTION=DX + 1", "DX is a function: write DX(i[, j][, k])"),
+        ("POINT_MASS/4, MASS=3,5", "decimals follow a point: MASS=3.5"),
+        ("POINT_MASS/4, MASS=3, VX=-2, 05", "decimals follow a point: VX=-2.05"),
+        ("POINT_MASS/4, MASS=3.5,5", "values follow the = sign of their argument"),
     ],
 )
 def test_hints_name_what_was_meant(broken: str, hint: str) -> None:
     (diagnostic,) = told(START + broken + "\n")
     assert diagnostic.hint.startswith(hint)
+
+
+def test_a_decimal_comma_is_corrected_to_a_point() -> None:
+    (diagnostic,) = told(f"{START}POINT_MASS/4, MASS=3, 5\n")
+    (correction,) = diagnostic.fixes
+    assert correction.title == "write 3.5"
+    assert [(edit.text, edit.span.column, edit.span.end_column) for edit in correction.edits] == [
+        (".", 21, 23)
+    ]
+    first, second = told(f"{START}POINT_MASS/4, MASS=3,5,7\n")
+    assert first.fixes and not second.fixes
 
 
 def test_one_argument_is_one_argument() -> None:

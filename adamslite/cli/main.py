@@ -86,6 +86,8 @@ Parser: TypeAlias = argparse.ArgumentParser
 #: and what a large deck is made of would be looked through again and again.
 GARBAGE = 1_000_000
 
+NOT_PIPED = "; standard input is not read, because files of results and commands take their names"
+NOT_PIPED += " from that of the deck"
 REPORT = (
     "adamslite: a fault in the program, not in your deck: {fault}\n"
     "Please report it with the deck and the output of the same command with --debug."
@@ -226,7 +228,8 @@ def _explain(fault: Exception) -> int:
         return IO_FAILED
     if isinstance(fault, OSError):
         where = f"'{fault.filename}': " if fault.filename else ""
-        _tell(f"adamslite: {where}{fault.strerror or fault}")
+        piped = NOT_PIPED if str(fault.filename) == "-" else ""
+        _tell(f"adamslite: {where}{fault.strerror or fault}{piped}")
         return IO_FAILED
     cause = " ".join(f"{type(fault).__name__}: {fault}".split())
     _tell(REPORT.format(fault=cause))

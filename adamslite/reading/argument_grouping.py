@@ -197,8 +197,19 @@ class Grouping:
             else:
                 current.values[0] = current.values[0] + piece
         elif not self.skipping:
-            text = self._text(piece)
-            self.log.add("unexpected-value", piece[0][2], end_of(piece[-1]), text=text)
+            self._stray(piece)
+
+    def _stray(self, piece: list[Lexeme]) -> None:
+        """A value of no argument: after a whole number it may be the decimals of that."""
+        text, place, current = self._text(piece), (piece[0][2], end_of(piece[-1])), self.current
+        words, hint, point = {"text": text}, "", None
+        if current and current.argument.kind == "number" and text.isdigit():
+            whole, after = self._text(current.values[0]), end_of(current.values[0][-1])
+            between = self.log.source.text[after : place[0]].strip()
+            if whole.lstrip("+-").isdigit() and between == ",":
+                hint = f"decimals follow a point: {current.argument.key}={whole}.{text}"
+                point = fix(self.log.source, f"write {whole}.{text}", (after, place[0], "."))
+        self.log.say("unexpected-value", place, words, hint, fix=point)
 
     def _text(self, piece: list[Lexeme]) -> str:
         text = self.log.source.text[piece[0][2] : end_of(piece[-1])]

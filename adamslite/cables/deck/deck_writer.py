@@ -1,7 +1,7 @@
 """Writes the deck of a cable scene: head, wheels, cable, run."""
 
 import re
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -31,6 +31,9 @@ METHODS = ("RADAU", "HHT", "GSTIFF, SI2")
 BALANCED = 1e-9
 # Strain of a cable that hardly carries anything.
 LEAST_STRAIN = 1e-6
+# A VARIABLE on one line that calls nothing; comments.
+CONSTANT = re.compile(r"^VARIABLE/(\w+), FUNCTION=(?!.*(?:\(|\bTIME\b)).*\n(?!,)", re.MULTILINE)
+COMMENT = re.compile(r"!.*")
 BRUTE = "Brute force: sections of fixed length run over the rims and off the winches."
 
 
@@ -61,7 +64,18 @@ def write(cables: list[Modelled], loads: Sequence[Load] = (), comments: str = ""
     if loads:
         text += load_requests(loads) + drawn_loads(loads, _places(cables))
     ends = _statics(cables, loads) + tail(_integrator(cables), spec.end, spec.steps)
-    return text + ends
+    return _without_idle(text + ends)
+
+
+def _without_idle(text: str) -> str:
+    """The deck without constants that no statement needs, as the length of a single section."""
+    while True:
+        words = Counter(re.findall(r"\w+", COMMENT.sub("", text).upper()))
+        found = [m for m in CONSTANT.finditer(text) if words[m[1].upper()] == 1]
+        if not found:
+            return text
+        for match in reversed(found):
+            text = text[: match.start()] + text[match.end() :]
 
 
 def _notes(each: Modelled) -> str:
