@@ -33,7 +33,7 @@ PHRASES = {
 #: Functions of Python whose names are not those of their commands.
 FUNCTIONS = {"solve": "simulate", "linear": "linearize"}
 #: Arguments of Python whose names are not those of their options.
-ARGUMENTS = {"tol": "tolerance"}
+ARGUMENTS = {"tol": "tolerance", "from": "start", "to": "until"}
 #: Values of `--user` that stand for others.
 FORMS = {"module:function": "function", "number": "number"}
 

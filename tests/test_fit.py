@@ -208,6 +208,12 @@ def test_a_number_at_its_bound_has_no_standard_error() -> None:
     assert found[K] == pytest.approx(180, rel=1e-5)
     assert np.isnan(found.errors[0]) and np.isfinite(found.errors[1])
     assert "at its bound" in str(found)
+    assert not any("times its band" in note for note in found.notes)
+    narrow = table(LONG, "# tolerance: abs 1e-3", x=swinging(LONG) + noisy(101, 1e-3))
+    banded = al.fit(deck, narrow, by=[K, C], bounds=[f"{K}=:180"])
+    assert any("times its band: the deck does not do what" in note for note in banded.notes)
+    bare = al.fit(deck, table(LONG, x=swinging(LONG)), by=[C])
+    assert any("of its spread" in note for note in bare.notes)
     assert any("alike" in note for note in found.notes)
 
 

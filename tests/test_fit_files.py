@@ -63,7 +63,7 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({"by": [K], "bounds": {K: (300, 400)}}, "starts at 200, outside of its bounds 300 to 400"),
     ({"by": [K], "bounds": [f"{K}=5"]}, "for bounds write NAME=LOW:HIGH"),
     ({"by": [K], "bounds": {K: (3, 2)}}, "nothing is between"),
-    ({"by": [K], "bounds": {C: (0, 9)}}, "it is not fitted"),
+    ({"by": [K], "bounds": {C: (0, 9)}}, "has bounds and is not fitted"),
     ({"by": ["POINT_MASS/2.QG[1]"]}, "starts at zero"),
     ({"by": [K], "of": ["PART/*"]}, "no result is called 'PART/\\*'"),
     ({"by": [K], "start": 5}, "nothing was measured from t = 5"),

@@ -12,6 +12,7 @@ from adamslite.fitting.derivatives import Curves, Derivatives
 from adamslite.fitting.least_squares import Search
 from adamslite.fitting.measured import Measured, amplitudes
 from adamslite.fitting.record import Fit, Residual
+from adamslite.notation import shown
 from adamslite.results.results import Results
 from adamslite.variation.decks import with_values
 
@@ -21,6 +22,8 @@ TIGHTER, WIDER = 0.1, 2.0
 MOVED = 0.1
 #: residuals of neighbouring times that are so much alike, numbers that are so much smaller now.
 ALIKE, VANISHED = 0.3, 1e-3
+#: residuals so many times beyond their band, and without band so large a share of the spread.
+BEYOND, LEFT = 3.0, 0.3
 #: Residuals are looked at where there are so many, larger than this share of the amplitude.
 FEWEST, ROUNDING = 20, 1e-8
 COARSE = (
@@ -45,7 +48,9 @@ def described(
         deck=with_values(runs.deck, {**runs.given, **numbers}), results=results, before=before,
         measured=measured, curves=curves, sigmas=search.sigmas, runs=runs.count,
         derivatives=str(search.derivatives), stopped=stopped,
-        notes=tuple(filter(None, [*notes, *said, *_vanished(runs, values)])),
+        notes=tuple(shown(each) for each in (
+            *notes, *_poor(curves, measured), *said, *_vanished(runs, values)
+        ) if each),
     )  # fmt: skip
 
 
@@ -142,6 +147,23 @@ def _alike(residuals: np.ndarray, curves: np.ndarray, measured: Measured) -> lis
     return notes
 
 
+def _poor(curves: np.ndarray, measured: Measured) -> list[str]:
+    """Channels whose residuals are far beyond their band, or large beside the values."""
+    notes = []
+    for k, (name, spread) in enumerate(zip(measured.channels, amplitudes(measured), strict=True)):
+        known, table = measured.known[:, k], measured.apart(curves)
+        own, band = table[known, k], measured.bands[known, k]
+        beyond = np.sqrt(np.mean((own / band) ** 2)) if band.all() else 0.0
+        left = np.sqrt(np.mean(own**2)) / spread
+        if beyond > BEYOND or (not band.all() and left > LEFT):
+            what = f"{beyond:.3g} times its band" if beyond else f"{left:.2g} of its spread"
+            notes.append(
+                f"{name}: the residual is {what}: the deck does not do what was measured, or "
+                "another start leads to better numbers"
+            )
+    return notes
+
+
 def _interpolated(
     runs: Runs, results: Results, curves: np.ndarray, measured: Measured
 ) -> list[str]:
@@ -164,8 +186,8 @@ def _interpolated(
 def _vanished(runs: Runs, values: np.ndarray) -> list[str]:
     """Numbers that keep their sign and have gone to zero."""
     return [
-        f"{p.name} has gone to {v:.3g}: it is zero, or --bounds {p.name}=LOW:HIGH with LOW below "
-        f"zero lets it become negative"
+        f"{p.name} has gone to {v:.3g}: it is zero, or a lower bound below zero lets it "
+        "become negative"
         for p, v in zip(runs.parameters, values, strict=True)
         if p.is_log and v < VANISHED * p.start and not p.at_bound(v)
     ]

@@ -88,14 +88,14 @@ def parameters_of(
     own = [each.name for each in found]
     twice = next((name for n, name in enumerate(own) if name in own[:n]), None)
     if twice:
-        raise UsageError(f"--by {twice}: it is there twice")
+        raise UsageError(f"{twice} is fitted twice")
     whole = next((each.name for each in found if each.argument.kind == "integer"), None)
     if whole:
         raise UsageError(f"{whole} takes whole numbers, which are not fitted")
     limits = {numbers.find(name).name: limit for name, limit in _limits(bounds)}
     for name in limits:
         if name not in own:
-            raise UsageError(f"--bounds {name}: it is not fitted; name it by --by, too")
+            raise UsageError(f"{name} has bounds and is not fitted: --by names what is fitted")
     return [_parameter(each, given, limits.get(each.name, (-inf, inf))) for each in found]
 
 
@@ -104,16 +104,16 @@ def _parameter(number: Named, given: Mapping[str, float], limits: tuple[float, f
     start = given.get(number.name, number.value)
     made = Parameter(number.name, start, low, high, number.argument.unit)
     if not low < high:
-        raise UsageError(f"--bounds {made.name}={low:g}:{high:g}: nothing is between them")
+        raise UsageError(f"bounds {made.name}={low:g}:{high:g}: nothing is between them")
     if not low <= made.start <= high:
         raise UsageError(
             f"{made.name} starts at {made.start:g}, outside of its bounds {low:g} to {high:g}; "
-            f"--set {made.name}=VALUE gives it another start"
+            f"it needs another start, or other bounds"
         )
     if made.start == 0.0 and not isfinite(high - low):
         raise UsageError(
-            f"{made.name} starts at zero, which does not say how large it may be: "
-            f"--set {made.name}=VALUE gives it another start, --bounds {made.name}=LOW:HIGH a range"
+            f"{made.name} starts at zero, which does not say how large it may be: it needs another "
+            f"start, or two bounds, as {made.name}=-1:1"
         )
     return made
 
