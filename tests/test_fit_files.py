@@ -55,6 +55,16 @@ def test_values_that_are_missing_are_left_out_and_told() -> None:
     assert any("nothing was measured from t = 1.18 to 1.6" in note for note in found.notes)
 
 
+def test_flags_of_a_reference_file_are_those_of_the_runs() -> None:
+    lines = ["# solve: --error 1e-6", f"# measure: max {X} = 1.2 tol abs 1"]
+    found = al.fit("swings.adm", table(LONG, *lines, x=swinging(LONG)), by=[K])
+    assert "ERROR=1e-06" in found.results.meta["integrator"]
+    assert {"runs have error = 1e-06, as the file says",
+            "lines '# measure:' of the file are not fitted"} <= set(found.notes)  # fmt: skip
+    found = al.fit("swings.adm", table(LONG, *lines, x=swinging(LONG)), by=[K], error=1e-7)
+    assert "ERROR=1e-07" in found.results.meta["integrator"]
+
+
 BAD: list[tuple[dict[str, Any], str]] = [
     ({"by": ["SPRINGDAMPER/1.D"]}, "there is no number SPRINGDAMPER/1.D; SPRINGDAMPER/1 has K"),
     ({"by": []}, "nothing is fitted"),

@@ -34,6 +34,10 @@ LEAST_NOISE = 1e-7
 #: A fit that leaves more of the measured spread than this is tried again by parts of the times.
 POOR = 0.1
 
+#: What a file may say of runs.
+FLAGS = ("end", "steps", "integrator", "formulation", "error", "hmax")
+MEASURES = "lines '# measure:' of the file are not fitted"
+
 
 class Wanted(NamedTuple):
     """What to fit, as the user has written it."""
@@ -72,14 +76,15 @@ def fit(
     """
     base = deck.base or deck
     found = parameters_of(variable_of(base).numbers, wanted.by, wanted.bounds, deck.values)
-    own = {name: each for name, each in reference.options.items() if name not in ("user", "values")}
-    runs = Runs(base, deck.values, found, commands, {**own, **(options or {})})
+    own, asked = reference.options, options or {}
+    own = {name: each for name, each in own.items() if name in FLAGS and name not in asked}
+    runs = Runs(base, deck.values, found, commands, {**own, **asked})
     runs.progress = progress or runs.progress
     start = [each.start for each in found]
     try:
         before = runs.results(start)
         measured = measured_of(reference, before, wanted.of, wanted.window)
-        notes = [prepared(runs, before, measured.time)]
+        notes = [*_of_the_file(reference, own), prepared(runs, before, measured.time)]
         runs.curves(start, measured)
     except Failed as fault:
         raise RunFailed(f"the fit cannot start, its first run fails: {fault}") from None
@@ -91,6 +96,12 @@ def fit(
     x, sigmas, stopped = _solved(derivatives)
     search = Search(derivatives, sigmas)
     return described(search, before, x, stopped, [*measured.notes, *notes])
+
+
+def _of_the_file(reference: Reference, own: Mapping[str, Any]) -> list[str]:
+    """Sentences on lines of a reference file that are for runs."""
+    found = [f"runs have {name} = {each}, as the file says" for name, each in own.items()]
+    return found + ([MEASURES] if reference.measures else [])
 
 
 def _solved(derivatives: Derivatives) -> tuple[np.ndarray, np.ndarray, str]:
