@@ -265,3 +265,20 @@ END
     expected = -(t * np.cos(2 * t) - np.sin(2 * t) / 2) / 4
     gap = np.abs(found.curve("POINT_MASS/2.x", "SPRINGDAMPER/1.C") - expected).max()
     assert gap <= 1e-6
+
+
+def test_a_number_that_drives_a_plane_motion_out_of_its_plane():
+    """A rod on a ball joint swings in the plane; its speed across, which is zero, turns it out."""
+    deck = al.read(
+        PENDULUM.replace("JOINT/1, REVOLUTE", "JOINT/1, SPHERICAL").replace("CM=2", "CM=2, VZ=0")
+    )
+    run = {"end": 1.0, "steps": 4}
+    found = al.sensitivities(deck, ["PART/2.VZ"], ["PART/2.*"], error=1e-9, **run)
+    ends = [
+        al.simulate(deck.with_values({"PART/2.VZ": v}), error=1e-12, integrator="RKF45", **run)
+        for v in (1e-5, -1e-5)
+    ]
+    slopes = (ends[0]["PART/2.z"] - ends[1]["PART/2.z"]) / 2e-5
+    assert np.abs(slopes).max() > 0.1
+    assert error(found.curve("PART/2.z", "PART/2.VZ"), slopes) <= 1e-6
+    assert np.abs(found.curve("PART/2.x", "PART/2.VZ")).max() <= 1e-9

@@ -42,6 +42,7 @@ class Tangents(Record):
     mass inertia gravity (np nb,), (9 np nb,), (3 np,): derivatives of those of ``Problem``
     none, nothing        a workspace of zeros; the address of as many as a group has reals
     dW                   the workspace's derivative
+    top, out             (np,) the largest that acts in the plane of the run, and out of it
     """
 
     count: int
@@ -55,6 +56,8 @@ class Tangents(Record):
     none: Reals
     nothing: int
     dW: Reals
+    top: Reals
+    out: Reals
 
 
 class Forward(Record):
@@ -72,6 +75,7 @@ class Forward(Record):
     row                  the next row of the record
     h, order             of the last step
     stages               (3 W.size,) workspaces of the stages of a step
+    floor                (np,) increments of places that are round-off
     age, factored        steps since matrices were made; the step that they are factored for
     spent, top           (2 np,) of places and velocities: sums of estimated errors, the largest
     grazed               events whose time has no derivative
@@ -94,6 +98,7 @@ class Forward(Record):
     row: int
     h: float
     order: int
+    floor: Reals
     age: int
     factored: float
     spent: Reals

@@ -81,13 +81,15 @@ Piece: TypeAlias = tuple[int, int, int, np.ndarray]
 class Direction:
     """Derivatives of a model's arrays by one number.
 
-    ``start``: of places and turns (n,), velocities (n,) and states (ns,) at the start.
+    ``start``: of places and turns (n,), velocities (n,) and states (ns,) at the start; ``size``:
+    how large the number is.
     """
 
     mass: np.ndarray
     inertia: np.ndarray
     gravity: np.ndarray
     start: np.ndarray
+    size: float
     pieces: list[Piece] = field(default_factory=list)
 
     def moves(self, system: System) -> bool:
@@ -114,7 +116,7 @@ def direction(system: System, base: Snapshot, around: dict[int, Snapshot], h: fl
         if body.width == PART:
             start[i + 3 : i + 6] = turns[b]
     start[system.n : 2 * system.n], start[2 * system.n :] = slope("u"), slope("s")
-    found = Direction(slope("mass"), slope("inertia"), slope("gravity"), start)
+    found = Direction(slope("mass"), slope("inertia"), slope("gravity"), start, h / SHARE)
     found.pieces = [*_pieces(system, base, around, h)]
     return found
 
@@ -172,6 +174,7 @@ class Collected:
         T.none, T.nothing, T.dW = (
             np.zeros(system.W.size), self.zeros.ctypes.data, np.zeros(system.W.size),
         )  # fmt: skip
+        T.top, T.out = np.zeros(len(found) + 1), np.zeros(len(found) + 1)
         self.start = np.array([one.start for one in found]).reshape(len(found), -1)
 
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from adamslite.language.traced import WRITTEN, again, places
-from adamslite.sensitivity.directions import STENCIL, Direction, Piece, slope_around
+from adamslite.sensitivity.directions import SHARE, STENCIL, Direction, Piece, slope_around
 from adamslite.variation.decks import variable_of
 
 if TYPE_CHECKING:
@@ -98,9 +98,9 @@ class Known:
         faces = {self.faces[k] for k, _ in columns}
         return not derived and not settled and faces <= AFTERWARDS
 
-    def load(self, system: System, number: Named) -> Direction:
-        """The derivatives of the arrays by a number of a load."""
-        found = _nothing(system)
+    def load(self, system: System, number: Named, h: float) -> Direction:
+        """The derivatives of the arrays by a number of a load, which changes by ``h``."""
+        found = _nothing(system, h)
         found.pieces = [*self._pieces(system, number)]
         return found
 
@@ -128,16 +128,16 @@ class Known:
         for k in STENCIL:
             changed = self.variable.statements({number.name: number.value + k * h})
             bodies[k] = model.body_of(cast("Part", next(iter(changed.values()))))
-        found = _nothing(system)
+        found = _nothing(system, h)
         found.mass[b] = slope_around({k: each.mass for k, each in bodies.items()}, h)
         of_bodies = {k: np.ravel(each.inertia) for k, each in bodies.items()}
         found.inertia[9 * b : 9 * b + 9] = slope_around(of_bodies, h)
         return found
 
 
-def _nothing(system: System) -> Direction:
+def _nothing(system: System, h: float) -> Direction:
     """A direction in which nothing changes."""
     return Direction(
         np.zeros(system.mass.size), np.zeros(system.inertia.size), np.zeros(3),
-        np.zeros(2 * system.n + system.ns),
+        np.zeros(2 * system.n + system.ns), h / SHARE,
     )  # fmt: skip

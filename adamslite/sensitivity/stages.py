@@ -50,7 +50,7 @@ RATE_ROWS, ROWS = 3, 7
 # or where they are round-off; and after so many.
 SHARE, LEAST, MOST = 1e-2, 1e-15, 30
 # Increments that shrink no further than this are round-off, below that share.
-STALLED, ROUND_OFF = 0.5, 1e-6
+STALLED, ROUND_OFF = 0.95, 1e-6
 # Derivatives serve for so many steps, while increments take no more iterations than this.
 # the step is done again with new ones where it takes many.
 KEEP_STEPS, QUICK, SLOW = 20, 5, 12
@@ -157,9 +157,10 @@ def solve_stages(P: Problem, L: Plan, D: Tangents, S: Forward, number: int, h: f
             return turn + 1
         if turn > 1 and not size < STALLED * last:
             motion(P, S, H, h)
-            return turn + 1 if size <= ROUND_OFF * reach else MOST + 1
+            return turn + 1 if size <= max(ROUND_OFF * reach, S.floor[number]) else MOST + 1
         last = size
-    return MOST + 1
+    motion(P, S, H, h)
+    return MOST
 
 
 @native

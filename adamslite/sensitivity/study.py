@@ -150,7 +150,7 @@ class Study:
         def found(system: System, as_drawn: bool) -> list[Direction]:
             for each in named:
                 if each.name in quick and known.is_load(each):
-                    made[each.name] = known.load(system, each)
+                    made[each.name] = known.load(system, each, self._step(each))
                 elif each.name in quick and as_drawn:
                     made[each.name] = known.mass(system, each, self._step(each))
                 elif each.name not in made:
@@ -250,7 +250,7 @@ def sensitivities(
         pairs = zip(named, found, strict=True)
         made["still"] = [each.name for each, one in pairs if not one.moves(system)]
 
-    session.follow = follow
+    session.follow, session.planar = follow, True
     session.execute(study.plan)
     if session.outcome is not Outcome.DONE:
         raise RunFailed(explained(session))

@@ -87,8 +87,20 @@ def tangent(P: Problem, D: Tangents, number: int, phases: int, F: Reals) -> None
     inertia_tangent(P, D, number, F)
     directed(P, D, phases, F)
     by_number(P, D, number, phases, F)
+    note_plane(P, D, number, F)
     for k in range(P.dead.size):
         F[P.dead[k]] = 0.0
+
+
+@native
+def note_plane(P: Problem, D: Tangents, number: int, F: Reals) -> None:
+    """Keep the largest of what acts in the plane of the run, and of what drives out of it."""
+    if P.held.size == 0 or number < 0:
+        return
+    for k in range(P.held.size):
+        D.out[number] = max(D.out[number], abs(F[P.held[k]]))
+    for k in range(P.sizes.nz):
+        D.top[number] = max(D.top[number], abs(F[k]))
 
 
 @native

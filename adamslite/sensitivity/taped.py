@@ -11,6 +11,7 @@ import numpy as np
 from adamslite.analyses.begun_again import Beginning
 from adamslite.analyses.dynamic import integrate, make_ready
 from adamslite.analyses.method_choice import MethodChoice
+from adamslite.analyses.planar_reduction import NOTHING, reduce_to_plane
 from adamslite.analyses.session import Session
 from adamslite.equations.engine import address_of
 from adamslite.errors import UsageError
@@ -39,9 +40,17 @@ SEVERAL = (
     "derivatives are those of one dynamic analysis: here a second one follows (several SIMULATE, "
     "or a SENSOR from which the analysis continues)"
 )
+# Increments below this share of what the workspace holds, over the number, are round-off.
+ROUND_OFF = 1e-13
+# What acts out of a plane is round-off below this share of what acts in it.
+OUT_OF_PLANE = 1e-9
 # Rows of a first tape, or as many as take so many bytes (which are there once they are written),
 # and how much longer the next one is.
 FIRST_ROWS, FIRST_BYTES, LONGER = 1000, 250_000_000, 8
+
+
+class LeftPlane(Exception):
+    """Motion in a plane leaves it, or would with other numbers."""
 
 
 class Along(NamedTuple):
@@ -74,10 +83,12 @@ class Probe(Session):
 
 
 class Taped(Session):
-    """Follows the tape of a run with ``follow(system)``."""
+    """Follows the tape of a run with ``follow(system, method)``; ``planar``: in the plane of the
+    motion, if it has one, where that finds out what leaves it.
+    """
 
     follow: Callable[[System, str], None]
-    followed = False
+    followed = planar = False
 
     def _take(self, choice: MethodChoice) -> None:
         super()._take(allowed(choice))
@@ -85,9 +96,20 @@ class Taped(Session):
     def _integrated(self, system: System, times: np.ndarray, apart: float) -> Outcome:
         if self.followed:
             raise UsageError(SEVERAL)
+        beginning = Beginning(system)
+        try:
+            if self.planar and reduce_to_plane(system):
+                return self._taped(system, times, apart, beginning, True)
+        except LeftPlane:
+            beginning.return_to()
+        return self._taped(system, times, apart, beginning, False)
+
+    def _taped(
+        self, system: System, times: np.ndarray, apart: float, beginning: Beginning, planar: bool
+    ) -> Outcome:
+        """A run with its tape, which is followed; raises :class:`LeftPlane`."""
         settings = self.chosen.settings
         rows = max(FIRST_ROWS, FIRST_BYTES // (8 * _width(system, settings.method)))
-        beginning = Beginning(system)
         while True:
             make_ready(system, times, apart, settings)
             lay_tape(system, rows, settings.method)
@@ -97,10 +119,13 @@ class Taped(Session):
                 break
             rows *= LONGER
             beginning.return_to()
+            planar = planar and reduce_to_plane(system)
+        if planar and system.report.left_plane:
+            raise LeftPlane
         if outcome is Outcome.DONE:
             system.instances.remember(beginning.memories)
-            self.followed = True
             self.follow(system, settings.method)
+            self.followed = True
         system.tape.width = 0
         return outcome
 
@@ -156,7 +181,9 @@ def followed(system: System, method: str, found: Iterable[Direction]) -> Along:
     UsageError
         When a step has none.
     """
+    found = [*found]
     collected = Collected(system, found, tangent_groups(system))
+    reach = float(max(np.abs(system.W[: system.nw]).max(), 1.0))
     count, w = collected.record.count, 2 * system.n + system.ns
     size = system.nw + system.sizes.n_out
     made = Forward.zeros()
@@ -167,6 +194,7 @@ def followed(system: System, method: str, found: Iterable[Direction]) -> Along:
         "history": history.ravel(), "y": np.zeros(4 * w + 1), "a": np.zeros(system.n + 1),
         "start": np.zeros(count * ROWS * w + 1), "state": np.zeros((ROWS + 2) * w),
         "z": np.zeros(system.m + system.nv + 1), "sd": np.zeros(system.ns + 1),
+        "floor": np.array([ROUND_OFF * reach / each.size for each in found] + [0.0]),
         "stages": np.zeros(3 * system.W.size), "guard": np.zeros(system.W.size),
         "spent": np.zeros(2 * count), "top": np.zeros(2 * count),
         "rate": np.zeros(w), "jump": np.zeros(w),
@@ -174,14 +202,37 @@ def followed(system: System, method: str, found: Iterable[Direction]) -> Along:
     }  # fmt: skip
     for name, value in arrays.items():
         setattr(made, name, value)
+    if _starts_out(system, found, reach):
+        raise LeftPlane
     problem, plan = system.records()
     run = _native(FORMULAS[method])
     code = run(problem.address, plan.address, collected.record.address, made.address)
     if code != DONE:
         raise UsageError("derivatives are not determined where the equations are singular")
+    if _driven_out(system, collected, found):
+        raise LeftPlane
     shares = made.spent / np.maximum(made.top, TINY)
     known = shares.reshape(count, 2).max(axis=1) if ESTIMATED[method] else np.full(count, np.nan)
     return Along(made.record[:-1].reshape(count, len(system.times), size), known, made.grazed)
+
+
+def _starts_out(system: System, found: list[Direction], reach: float) -> bool:
+    """Whether starts move out of the plane in which the run was."""
+    held = system.elimination.held
+    out = held[held < system.n]
+    for each in found:
+        moved = np.abs(each.start[[*out, *(system.n + out)]]).max(initial=0.0)
+        if moved > NOTHING * max(np.abs(each.start).max(initial=0.0), reach / each.size):
+            return True
+    return False
+
+
+def _driven_out(system: System, collected: Collected, found: list[Direction]) -> bool:
+    """Whether a number would drive the motion out of the plane in which the run was."""
+    tangents, loose = collected.record, float(system.elimination.loose[0])
+    least = np.array([loose / each.size for each in found])
+    limit = np.maximum(OUT_OF_PLANE * tangents.top[:-1], least)
+    return bool(system.elimination.held.size and (tangents.out[:-1] > limit).any())
 
 
 def _native(entry: str) -> Any:
