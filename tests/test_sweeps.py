@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from time import sleep as wait
 from typing import Any
 
 import numpy as np
@@ -342,3 +343,28 @@ def test_another_sweep_is_not_written_over(path, capsys, change: str) -> None:
     assert main(words()) == 2
     assert "holds another sweep" in capsys.readouterr().err
     assert Path("x.nc").read_bytes() == before
+
+
+def test_threads_take_turns_in_a_routine_of_the_user(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It has one room for what it is given."""
+    monkeypatch.setattr("adamslite.sweeps.workers.LOT", 1e-3)
+    monkeypatch.setattr("adamslite.sweeps.workers.SHORT", 0.0)
+
+    @al.reads("DY(2, 1)")
+    def height(parameters: Any, time: float, y: float) -> float:
+        wait(1e-6)  # another thread goes on
+        return y
+
+    deck = DECK.replace("FUNCTION=3\n", "FUNCTION=USER(3)\n").replace(
+        "MARKER/2", "MARKER/1, PART=1\nMARKER/2"
+    )
+    one, four = (
+        al.sweep(
+            deck, f"{NAME}=-1:-9:12", measures=["max REQUEST/1.F2", "final REQUEST/1.F2"],
+            user={"VARIABLE/k": height}, workers=workers, by="threads",
+        )
+        for workers in (1, 4)
+    )  # fmt: skip
+    assert four.outcomes == ["DONE"] * 12
+    assert np.array_equal(four.measures, one.measures)
+    assert four["final REQUEST/1.F2"] == pytest.approx(5 + four[NAME] / 2, abs=1e-3)

@@ -31,6 +31,7 @@ def sweep(
     path: str | Path | None = None,
     workers: int | None = None,
     by: str = PROCESSES,
+    client: Any = None,
     end: float | None = None,
     steps: int | None = None,
     integrator: str | None = None,
@@ -69,6 +70,8 @@ def sweep(
         As many as there are processors unless given.
     by : str
         ``processes`` or ``threads``.
+    client : distributed.Client or str
+        Of a Dask cluster whose workers carry the runs out, or its address.
     end, steps, integrator, formulation, error, hmax, commands, user
         As for :func:`adamslite.simulate`.
     progress : bool, callable or Progress
@@ -99,7 +102,7 @@ def sweep(
     with closing(progress_of(progress)) as shown:
         return sweeps.sweep(
             deck, sweeps.Wanted(varied, sample, seed, measures, outputs), path, given.commands,
-            options, sweeps.Means(workers, by), shown, read,
+            options, sweeps.Means(workers, by, client), shown, read,
         )  # fmt: skip
 
 

@@ -38,11 +38,19 @@ HOUR = 3600.0
 
 
 def recall(name: str, make: Callable[[], bytes]) -> bytes:
-    """The content kept under ``name``, verified; made and kept when there is none or it fails."""
+    """The content kept under ``name``, verified; made and kept when there is none or it fails.
+
+    Of several processes that need it at once, one makes it.
+    """
     content = find(name)
     if content is None:
-        content = make()
-        keep(name, content)
+        from adamslite.caching.alone import alone  # most entries are there
+
+        with alone(name) as waited:
+            content = find(name) if waited else None
+            if content is None:
+                content = make()
+                keep(name, content)
     return content
 
 

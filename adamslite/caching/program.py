@@ -99,6 +99,24 @@ def content_digest(paths: list[str]) -> str:
     return found.hexdigest()
 
 
+@cache
+def fingerprint() -> str:
+    """Of the sources alone, wherever they are installed and whatever runs them: what another
+    machine can have, too. Empty where :func:`program` is.
+    """
+    if not program():
+        return ""
+    found = hashlib.sha256()
+    for place in (PACKAGE, str(resources.find("grammar"))):
+        for path in sorted(_files([place])):
+            with open(path, "rb") as file:
+                content = file.read()
+            name = os.path.relpath(path, place).replace(os.sep, "/")
+            found.update(f"\0{name}\0{len(content)}\0".encode())
+            found.update(content)
+    return found.hexdigest()
+
+
 def is_unchanged() -> bool:
     """Whether the program is still the one that this process began with."""
     before = program()

@@ -67,6 +67,12 @@ class Routine:
         self.data[ADDRESS] = ctypes.cast(self._callback, ctypes.c_void_p).value or 0
         self.forget()
 
+    def __reduce__(self) -> tuple[type[Routine], tuple[Any, ...]]:
+        """Its address is that of one process."""
+        inputs = len(self.data) - INPUTS
+        given = (self.label, self.name, self.function, self.parameters, inputs, self.count)
+        return Routine, given
+
     def forget(self) -> None:
         """Nothing has been called yet."""
         self.fault: Exception | None = None

@@ -5,11 +5,12 @@ from __future__ import annotations
 from array import array
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from importlib import import_module
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 import adamslite
-from adamslite.native import compiler
+from adamslite.native import compiler, processor
 
 if TYPE_CHECKING:  # kernels that are kept between runs were written earlier
     from adamslite.kernels.code.shape import Outputs
@@ -157,6 +158,28 @@ class Kernels:
     """What is made of them whatever the numbers are: layouts by formulation, names of columns."""
     refill: Any = field(default=None, compare=False, repr=False)
     """What puts other numbers into these kernels, once it has been asked for."""
+
+    @property
+    def audited(self) -> bool:
+        """Whether they follow what elements store."""
+        return any(group.face == "stored" for group in self.groups)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Object code and the processor that it is for; addresses are those of this process."""
+        groups = [replace(group, write=None) for group in self.groups]
+        own = {"groups": groups, "addresses": {}, "compiled": 0, "shared": {}, "refill": None}
+        return {**vars(self), **own, "processor": processor.identity()}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        made_for = state.pop("processor")
+        vars(self).update(state)
+        if made_for != processor.identity():
+            # Code for another processor is made again, which few who unpickle need.
+            compiling = import_module("adamslite.kernels.compile")
+            made = compiling.compile_model(self.model, audited=self.audited)
+            vars(self).update(vars(made))
+        elif all(group.code for group in self.groups):
+            self.addresses = linked(self.groups)
 
     def with_values(self, values: Mapping[str, float] | Iterable[str]) -> Kernels:
         """Kernels of the deck with other numbers, ``{"SPRINGDAMPER/1.K": 90}``.

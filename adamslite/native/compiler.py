@@ -13,6 +13,7 @@ from __future__ import annotations
 import functools
 import hashlib
 from collections.abc import Callable, Iterable, Sequence
+from threading import Lock
 from typing import Any
 
 from adamslite.native import processor
@@ -97,12 +98,15 @@ def addresses(parts: Iterable[tuple[bytes | tuple[bytes, ...], list[str]]]) -> d
     found: dict[str, int] = {}
     for code, names in parts:
         if names[0] not in _linked:
-            _linked.update(_link((code,) if isinstance(code, bytes) else code, names))
+            with _linking:
+                _linked.update(_link((code,) if isinstance(code, bytes) else code, names))
         found.update((name, _linked[name]) for name in names)
     return found
 
 
 _linked: dict[str, int] = {}
+_linking = Lock()
+"""LLVM's linker takes one call at a time."""
 
 
 def _link(codes: Sequence[bytes], names: list[str]) -> dict[str, int]:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Mapping, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -24,6 +26,7 @@ from adamslite.variation.decks import with_values
 INVALID, FAULT = "INVALID", "FAULT"
 #: Of a run that has not been carried out.
 AHEAD = ""
+_turns = threading.Lock()
 SUMMARY = (
     "t_end", "dof", "steps", "rejected", "newton", "jacobians", "factorizations", "max_violation",
 )  # fmt: skip
@@ -75,17 +78,21 @@ class Job:
         return dict(zip(self.names, self.values[number].tolist(), strict=True))
 
     def run(self, number: int) -> Run:
-        """Carry out a run; one that fails is described, not raised."""
+        """Carry out a run; one that fails is described, not raised.
+
+        A routine of the user has one room for what it is given: threads take turns.
+        """
         try:
-            deck = with_values(self.deck, self.given(number))
-            results = simulate(deck, commands=self.commands, notes=False, **self.options)
+            with _turns if self.deck.user.made else nullcontext():
+                deck = with_values(self.deck, self.given(number))
+                results = simulate(deck, commands=self.commands, notes=False, **self.options)
         except DeckError as fault:
             first = next((each for each in fault.diagnostics if each.is_error), None)
-            return self._without(number, INVALID, first.message if first else str(fault))
+            return self.without(number, INVALID, first.message if first else str(fault))
         except (UsageError, RunFailed) as fault:
-            return self._without(number, INVALID, str(fault))
+            return self.without(number, INVALID, str(fault))
         except Exception as fault:  # the other runs go on
-            return self._without(number, FAULT, f"{type(fault).__name__}: {fault}")
+            return self.without(number, FAULT, f"{type(fault).__name__}: {fault}")
         return self._kept(number, results)
 
     def _kept(self, number: int, results: Results) -> Run:
@@ -99,7 +106,8 @@ class Job:
         kept = time if columns else time[:0]
         return Run(number, ending, message, summary, measures, kept, histories)
 
-    def _without(self, number: int, outcome: str, message: str) -> Run:
+    def without(self, number: int, outcome: str, message: str) -> Run:
+        """A run of which there is nothing but how it ended."""
         nothing = (np.nan,) * len(SUMMARY), (np.nan,) * len(self.measures)
         histories = np.empty((0, len(self.channels)))
         return Run(number, outcome, message, *nothing, np.empty(0), histories)

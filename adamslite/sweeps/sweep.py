@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from hashlib import sha256
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -25,7 +26,7 @@ from adamslite.reading.numbers import Named
 from adamslite.results.channels import describe, of_argument, unit_symbols
 from adamslite.results.selection import selected
 from adamslite.sweeps import netcdf
-from adamslite.sweeps.job import Job
+from adamslite.sweeps.job import Job, Run
 from adamslite.sweeps.measures import of_columns, parsed
 from adamslite.sweeps.origin import origin_texts
 from adamslite.sweeps.progress import RunsState
@@ -49,10 +50,14 @@ class Wanted(NamedTuple):
 
 
 class Means(NamedTuple):
-    """By what the runs are carried out; ``workers`` None: as many as there are processors."""
+    """By what the runs are carried out; ``workers`` None: as many as there are processors.
+
+    ``scheduler``: that of a Dask cluster, by its address, its file or a client of it.
+    """
 
     workers: int | None = None
     kind: str = PROCESSES
+    scheduler: Any = None
 
 
 def sweep(
@@ -82,35 +87,58 @@ def sweep(
         When names, values or measures are not what they have to be, or the file is there and holds
         anything else.
     """
-    means = means or Means()
-    workers = _workers(means)
     progress = progress or Progress()
-    job, made = planned(deck, wanted, commands, options or {}, progress)
-    if path is not None:
-        need_writable(path, read)
-        made = _gone_on_with(made, Path(path))
-    ahead = made.ahead
-    if not ahead:
-        return made
-    job.prepare()
-    writing = _Writing(made, path)
-    began = len(made) - len(ahead)
+    with _carrier(means or Means(), progress) as lots_of:
+        job, made = planned(deck, wanted, commands, options or {}, progress)
+        if path is not None:
+            need_writable(path, read)
+            made = _gone_on_with(made, Path(path))
+        ahead = made.ahead
+        if ahead:
+            _enter_all(made, lots_of(job, ahead), len(ahead), path, progress)
+    return made
+
+
+Lots = Iterator[list[Run]]
+
+
+@contextmanager
+def _carrier(means: Means, progress: Progress) -> Iterator[Callable[[Job, Sequence[int]], Lots]]:
+    """What carries out runs of a job: workers of this machine, or of a cluster."""
+    workers = _workers(means)
+    if means.scheduler is None:
+        yield lambda job, numbers: carried_out(job, numbers, workers, means.kind)
+        return
+    from adamslite.sweeps import cluster
+
+    with cluster.connected(means.scheduler) as client:
+        if not client.nthreads():
+            progress.say("the scheduler has no workers yet: the sweep begins when one is there")
+        yield lambda job, numbers: cluster.carried_out_by(client, job, numbers)
+
+
+def _enter_all(
+    made: Sweep, lots: Lots, ahead: int, path: str | Path | None, progress: Progress
+) -> None:
+    """Keep the runs in lots as they come; an interruption ends them."""
+    writing, done = _Writing(made, path), len(made) - ahead
     try:
-        for lot in carried_out(job, ahead, workers, means.kind):
+        for lot in lots:
             for run in lot:
                 netcdf.need_room(len(made), len(run.time))
                 made.enter(run)
-            began += len(lot)
-            progress.watch(RunsState(time=float(began), end=float(len(made)), steps=began))
+            done += len(lot)
+            progress.watch(RunsState(time=float(done), end=float(len(made)), steps=done))
             writing.now_and_then()
     except KeyboardInterrupt:
         pass  # what is ahead shows it
     finally:
         writing.write()
-    return made
 
 
 def _workers(means: Means) -> int:
+    if means.scheduler is not None and (means.workers is not None or means.kind != PROCESSES):
+        raise UsageError("--workers and --threads are of this machine: a scheduler has its own")
     if means.kind not in (PROCESSES, THREADS):
         raise UsageError(f"{means.kind}: workers are {PROCESSES} or {THREADS}")
     if means.workers is None:

@@ -62,6 +62,7 @@ def carried_out(
     RunFailed
         When a process of a worker ends by itself.
     """
+    job.prepare()
     began, done = clock.perf_counter(), 0
     for number in numbers:
         before = clock.perf_counter()

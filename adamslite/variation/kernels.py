@@ -78,7 +78,7 @@ class Refill:
         if model.merges_parts or model.deck.delays or not self.variable.alike or model.deck.base:
             return
         try:
-            groups, _ = bound(Model(deck, model.without), self.audited)
+            groups, _ = bound(Model(deck, model.without), self.kernels.audited)
             collected = groups.in_order()
         except DeckError:
             return
@@ -101,11 +101,6 @@ class Refill:
                 self.entries[k, n] = found
             for at in set().union(*(places(recipe) for _, recipe in found)):
                 self.columns.setdefault(at, set()).add((k, n))
-
-    @property
-    def audited(self) -> bool:
-        """Whether the kernels follow what elements store."""
-        return any(group.face == "stored" for group in self.kernels.groups)
 
     # ---- other numbers ------------------------------------------------------------------------
 
@@ -205,7 +200,7 @@ def _compiled(refill: Refill, deck: Deck) -> Kernels:
     old = refill.kernels.model
     model = assemble(deck, old.without)
     model = merged(model) if refill.merging or old.merges_parts else model
-    made = compile_model(model, audited=refill.audited)
+    made = compile_model(model, audited=refill.kernels.audited)
     names = ([group.name for group in each.groups] for each in (made, refill.kernels))
     if refill.usable and next(names) == next(names):
         made.refill = refill

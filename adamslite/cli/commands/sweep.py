@@ -51,6 +51,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--threads", action="store_true", help="workers are threads, not processes")
     parser.add_argument(
+        "--scheduler", metavar="ADDRESS",
+        help="workers are those of a Dask cluster: tcp://host:8786, or the scheduler's .json file",
+    )  # fmt: skip
+    parser.add_argument(
         "--commands", metavar="COMMANDS.acf", type=Path,
         help="command file; without it the .acf beside the deck",
     )  # fmt: skip
@@ -86,7 +90,7 @@ def run(args: argparse.Namespace) -> int:
     wanted = Wanted(args.varied, args.sample, args.seed, args.measures, args.outputs)
     flags = ("end", "steps", "integrator", "error", "hmax")
     options = {name: getattr(args, name) for name in flags if getattr(args, name) is not None}
-    means = Means(args.workers, "threads" if args.threads else "processes")
+    means = Means(args.workers, "threads" if args.threads else "processes", args.scheduler)
     progress = Progress() if args.quiet else TalkingProgress()
     began = clock.perf_counter()
     try:

@@ -1,0 +1,69 @@
+"""One process of a machine makes an entry, and others that need it wait until it is there."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from adamslite.caching.folder import cache_folder
+
+#: So long is another process waited for, which may have been stopped, and between two tries [s].
+PATIENCE, PAUSE = 120.0, 0.02
+
+
+@contextmanager
+def alone(name: str) -> Iterator[bool]:
+    """Inside, no other process makes the entry of this name; whether one had to be waited for.
+
+    Where files cannot be locked (Windows, some networks) everyone makes it.
+    """
+    path = cache_folder() / f".{name}.lock"
+    lock, waited = _taken(path)
+    try:
+        yield waited
+    finally:
+        if lock is not None:
+            with suppress(OSError):
+                path.unlink()
+            os.close(lock)
+
+
+def _taken(path: Path) -> tuple[int | None, bool]:
+    """The file that is locked, None where none can be, and whether another process had it."""
+    end, waited = time.monotonic() + PATIENCE, False
+    while time.monotonic() < end:
+        try:
+            file = os.open(path, os.O_RDWR | os.O_CREAT, 0o600)
+        except OSError:
+            return None, waited
+        try:
+            if _lock(file) and _is_there(file, path):
+                return file, waited
+        except (ImportError, OSError):
+            os.close(file)
+            return None, waited
+        os.close(file)
+        waited = True
+        time.sleep(PAUSE)
+    return None, waited
+
+
+def _lock(file: int) -> bool:
+    import fcntl  # Unix alone has it
+
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    return True
+
+
+def _is_there(file: int, path: Path) -> bool:
+    """Whether it is still the file of this name: who had it before has removed it."""
+    try:
+        return os.path.samestat(os.fstat(file), path.stat())
+    except FileNotFoundError:
+        return False
