@@ -1,10 +1,10 @@
 """Runs on the workers of a Dask cluster, wherever these are.
 
-The job goes to the scheduler once, as a task of its own: a worker that joins, or takes the place of
-a lost one, gets it from there.  Runs go in lots of about ``LOT`` seconds, two for each thread of a
-worker at a time, and their results come back as they are ready.  What a lost worker was doing is
-carried out by another one; Dask tries that some times, after which a lot is taken apart, so that a
-run that brings its workers down fails alone.
+The job goes to the scheduler once, as a task of its own: a worker that joins, or replaces a lost
+one, gets it from there.  Runs go in lots of about ``LOT`` seconds, two for each thread of a worker
+at a time, and their results come back as they are ready.  What a lost worker was doing is carried
+out by another one.  Dask tries that some times, after which a lot is taken apart, so that a run
+that brings its workers down fails alone.
 """
 
 from __future__ import annotations
@@ -27,8 +27,11 @@ from adamslite.sweeps.job import FAULT, Job, Run
 if TYPE_CHECKING:
     from distributed import Client, Future
 
-#: A lot takes about so long [s], and has so many runs at most.
-LOT, LARGEST = 0.5, 500
+#: A lot takes about so long [s], or longer, so that no more lots end in a second, each of which
+#: costs the scheduler some milliseconds; it has so many runs at most.
+LOT, ENDING, LARGEST = 0.5, 50.0, 5000
+#: A run is thought to take so long before one has ended [s].
+UNKNOWN = 0.5
 #: A scheduler answers within this time [s]; workers are counted this often [s].
 PATIENCE, COUNTED = 10.0, 2.0
 NEEDED = (
@@ -124,7 +127,7 @@ class _Lots:
         self.client, self.job = client, job
         self.left = [int(number) for number in reversed(numbers)]
         self.alone: list[int] = []  # those whose lot has brought workers down
-        self.each, self._threads, self._counted = LOT, 1, -COUNTED
+        self.each, self._threads, self._counted = UNKNOWN, 1, -COUNTED
         self.waiting: dict[Future, list[int]] = {}
         self._ended = as_completed([], loop=client.loop)
         self.parcel = self._sent()
@@ -161,7 +164,8 @@ class _Lots:
             count = 1
             if not self.alone:
                 fair = -(-len(self.left) // (2 * self.threads))
-                count = max(1, min(int(LOT / self.each), fair, LARGEST))
+                lasting = max(LOT, self.threads / ENDING)
+                count = max(1, min(int(lasting / self.each), fair, LARGEST))
             source = self.alone or self.left
             lot = [source.pop() for _ in range(count)]
             given = np.array(lot), self.job.values[lot]
