@@ -12,6 +12,7 @@ from __future__ import annotations
 import threading
 import time as clock
 from collections.abc import Iterator, Sequence
+from concurrent.futures import CancelledError
 from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
@@ -32,6 +33,8 @@ if TYPE_CHECKING:
 LOT, ENDING, LARGEST = 0.5, 50.0, 5000
 #: A run is thought to take so long before one has ended [s].
 UNKNOWN = 0.5
+#: Of a lot whose scheduler has gone.
+ENDED = ("cancelled", "lost")
 #: A scheduler answers within this time [s]; workers are counted this often [s].
 PATIENCE, COUNTED = 10.0, 2.0
 NEEDED = (
@@ -197,7 +200,8 @@ class _Lots:
         return list(runs)
 
     def _why(self, future: Future, fault: Exception) -> str:
-        if future.status in ("cancelled", "lost") or self.client.status != "running":
+        missed = isinstance(fault, CancelledError) or future.status in ENDED
+        if missed or self.client.status != "running":
             return "the scheduler has gone; the same command goes on with the rest"
         first = str(fault).strip().splitlines()
         return f"a worker cannot carry out runs: {first[0] if first else type(fault).__name__}"
