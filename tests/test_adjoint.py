@@ -186,9 +186,9 @@ def net(side: int) -> str:
         pairs += [(k + 10, k + 11)] * ((k + 1) % side > 0)
         pairs += [(k + 10, k + 10 + side)] * (k + side < side * side)
     for k, (i, j) in enumerate(pairs, 1):
-        text += (
-            f"SFORCE/{k}, TRANSLATIONAL, I={i}, J={j}, FUNCTION=-0.1*ACCM({i},{j})-DM({i},{j})\n"
-        )
+        share = 0.1 + 2.5 * (-1) ** k  # off the diagonal, so that rows are swapped
+        law = f"FUNCTION=({share})*ACC{'XY'[j == i + 1]}({i},{j})-DM({i},{j})"
+        text += f"SFORCE/{k}, TRANSLATIONAL, I={i}, J={j}, {law}\n"
     return text + "END\n"
 
 

@@ -145,11 +145,25 @@ class Chain:
         fields = self.variable.fields[each.at]
         if own.keyword not in ("PART", "POINT_MASS") or len(fields) != 1:
             return -1
-        if self.system.m and not (self.free and fields[0][1] in ("mass", "ip")):
+        if any((own.keyword, own.key) in each for each in self.refill.deriving.values()):
             return -1
+        found = int(model.body_index.get((own.keyword, own.key), -1))
+        if self.system.m and not (self.free and fields[0][1] in ("mass", "ip")):
+            found = -1 if found in self.tied or not self.free else found
         if self.along_others or self.refill.columns.get(each.at) or not self.refill.usable:
             return -1
-        return int(model.body_index.get((own.keyword, own.key), -1))
+        return found
+
+    @cached_property
+    def tied(self) -> set[int]:
+        """Bodies that constraints touch."""
+        return {
+            int(body)
+            for group in self.kernels.groups
+            if group.face in LEVELS
+            for column in group.instances.columns.bodies
+            for body in column
+        }
 
     @cached_property
     def along_others(self) -> bool:
