@@ -14,6 +14,7 @@ from adamslite.equations.engine import address_of
 from adamslite.errors import UsageError
 from adamslite.integrators.contract import ACCELERATION as EQUATIONS
 from adamslite.integrators.contract import ACCELERATIONS, JACOBIAN
+from adamslite.sensitivity import study
 from adamslite.sensitivity.transposed import ENTRY, FACTOR_RATES, SOLVE_RATES
 
 SPRING = """m x'' = -k (x - 1) - c x', let go at x = 2 at rest
@@ -81,6 +82,12 @@ SFORCE/1, ROTATION, I=20, J=1, FUNCTION=0-0.1*WZ(20,1)
 DIFF/1, FUNCTION=WZ(20,1)**2-0.5*DIF(1), IC=0.1
 END
 """
+
+
+@pytest.fixture(autouse=True)
+def in_space(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Sensitivities along the same steps: a sweep back is in space."""
+    monkeypatch.setattr(study, "PLANAR", False)
 
 
 def compare(

@@ -49,6 +49,8 @@ COARSE = (
 GRAZED = "the motion only touches what changes a branch: nothing is known behind such an event"
 # Estimates from here on are told.
 DOUBTFUL = 0.01
+# Whether motion in a plane is followed in the plane.
+PLANAR = True
 # Turns of a part by which its angles are differentiated.
 TURN = 1e-5
 # Numbers of derivatives that are held at a time.
@@ -250,7 +252,7 @@ def sensitivities(
         pairs = zip(named, found, strict=True)
         made["still"] = [each.name for each, one in pairs if not one.moves(system)]
 
-    session.follow, session.planar = follow, True
+    session.follow, session.planar = follow, PLANAR
     session.execute(study.plan)
     if session.outcome is not Outcome.DONE:
         raise RunFailed(explained(session))
