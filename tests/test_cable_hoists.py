@@ -1,5 +1,8 @@
 """Loads on several ropes, as `adamslite cable` writes them."""
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -136,3 +139,19 @@ at = [0.2, 0, {z}]
     for k, exact in ((1, 74.75 * G), (2, 25.25 * G)):
         for span in (2 * k - 1, 2 * k):
             assert found[f"REQUEST/{span}.F2"] == pytest.approx(exact, rel=1e-3)
+
+
+@pytest.mark.parametrize("stiffness", ["4e6", "1.3e8"])
+def test_statics_of_a_rope_that_may_part(stiffness: str) -> None:
+    """Its tension is a VARIABLE, whose last digits are those of places of 10 m: 1e-10 N and more.
+
+    Both ropes hang at x = 0: they carry 500 kg and half of their own 22 m.
+    """
+    scene = Path("decks/cables/hoists/parting.toml").read_text(encoding="utf-8")
+    scene = "statics = true\n" + scene.replace("EA = 4e6", f"EA = {stiffness}")
+    text, _ = deck(scene)
+    text = re.sub(r"SIMULATE/DYNAMIC.*", "", text)
+    results = adamslite.simulate(adamslite.read(text))
+    assert results.outcome is adamslite.Outcome.DONE, results.message
+    carried = results["SFORCE/1001.f"][-1] + results["SFORCE/2001.f"][-1]
+    assert -carried == pytest.approx(G * (500 + 0.002 * 11), abs=0.05)

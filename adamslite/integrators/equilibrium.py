@@ -273,14 +273,18 @@ def settled(P: Problem) -> bool:
     """Small correction, and small residual of forces and constraints after it.
 
     Where the full correction is no more than the rounding of the coordinates, no others leave less
-    of the forces, stiff as they may be.
+    of the forces, stiff as they may be, nor of variables, which then have the digits of ERROR.
     """
     C = Control(P.control)
     imbalance(P)
-    first = P.sizes.n + P.sizes.m + P.sizes.nv
-    for k in range(P.sizes.n, first):
-        if not abs(P.F[k]) <= C.error * CLOSED * max(1.0, C.length):
+    n, rows = P.sizes.n, P.sizes.m + P.sizes.nv
+    rounded = C.shift <= ROUNDED and C.sigma <= C.stability
+    for k in range(rows):
+        left = C.error * CLOSED * max(1.0, C.length)
+        if rounded and k >= P.sizes.m:
+            left = max(left, C.error * abs(P.z[k]))
+        if not abs(P.F[n + k]) <= left:
             return False
-    if C.shift <= ROUNDED and C.sigma <= C.stability:
+    if rounded:
         return True
     return C.worst <= C.imbalance and C.moved <= C.error
