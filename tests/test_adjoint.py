@@ -99,7 +99,7 @@ def compare(
     effects = np.abs(forwards.gradient * np.where(forwards.at, forwards.at, 1.0))
     gap = np.abs(back.gradient - forwards.gradient) * np.where(forwards.at, abs(forwards.at), 1.0)
     assert back.by == forwards.by and back.measures == forwards.measures
-    assert np.array_equal(back.values, forwards.values)
+    assert back.values == pytest.approx(forwards.values, rel=1e-7)
     assert (gap <= tolerance * effects.max(axis=1, keepdims=True)).all(), gap / effects.max()
     assert effects.max(axis=1).min() > 0.0
 
@@ -122,32 +122,36 @@ def test_a_damped_vibration_by_mass_stiffness_and_damping() -> None:
         assert found["POINT_MASS/2.x@end", name] == pytest.approx(expected, rel=1e-6)
 
 
-def test_measures_of_a_vibration() -> None:
+@pytest.mark.parametrize("integrator", ["GSTIFF", "RADAU"])
+def test_measures_of_a_vibration(integrator: str) -> None:
     of = ["max POINT_MASS/2.ax", "mean REQUEST/1.F2", "rms POINT_MASS/2.x", "min POINT_MASS/2.x"]
     of += ["absmax POINT_MASS/2.vx", "range POINT_MASS/2.x", "first POINT_MASS/2.ax"]
     of += ["POINT_MASS/2.x@0.77"]
     by = ["POINT_MASS/2.MASS", "POINT_MASS/2.QG[0]", "SPRINGDAMPER/1.K", "SPRINGDAMPER/1.LENGTH"]
-    compare(SPRING, of, by, end=2.0, steps=40, error=1e-7)
+    compare(SPRING, of, by, end=2.0, steps=40, error=1e-7, integrator=integrator)
 
 
-def test_events_where_accelerations_jump() -> None:
+@pytest.mark.parametrize("integrator", ["GSTIFF", "RADAU"])
+def test_events_where_accelerations_jump(integrator: str) -> None:
     names = [f"SFORCE/1.FUNCTION[{k}]" for k in (0, 1, 2, 3, 4)] + ["SFORCE/2.FUNCTION[0]"]
     by = ["POINT_MASS/2.MASS", "POINT_MASS/2.QG[1]", "ACCGRAV.JGRAV", *names]
     compare(BOUNCE, ["POINT_MASS/2.y@end", "mean POINT_MASS/2.x"], by, 1e-8,
-            end=1.2, steps=60, error=1e-8)  # fmt: skip
+            end=1.2, steps=60, error=1e-8, integrator=integrator)  # fmt: skip
 
 
-def test_redundant_constraints_and_an_assembled_start() -> None:
+@pytest.mark.parametrize("integrator", ["GSTIFF", "RADAU"])
+def test_redundant_constraints_and_an_assembled_start(integrator: str) -> None:
     by = ["PART/2.MASS", "PART/3.IP[2]", "MARKER/21.QP[0]", "MARKER/2.QP[0]", "JOINT/1.IC[1]"]
     compare(FOUR_BAR, ["PART/2.wz@end", "mean VARIABLE/rocker", "max PART/3.ax"], by, 1e-8,
-            end=0.3, steps=30, error=1e-7)  # fmt: skip
+            end=0.3, steps=30, error=1e-7, integrator=integrator)  # fmt: skip
 
 
-def test_a_double_pendulum_with_a_state() -> None:
+@pytest.mark.parametrize("integrator", ["GSTIFF", "RADAU"])
+def test_a_double_pendulum_with_a_state(integrator: str) -> None:
     by = ["PART/2.MASS", "PART/3.IP[2]", "MARKER/21.QP[0]", "SFORCE/1.FUNCTION[1]", "DIFF/1.IC[0]",
           "DIFF/1.FUNCTION[1]", "ACCGRAV.JGRAV"]  # fmt: skip
     compare(DOUBLE, ["PART/3.y@end", "DIFF/1@end", "mean PART/3.wz"], by, 1e-8,
-            end=1.0, steps=50, error=1e-7)  # fmt: skip
+            end=1.0, steps=50, error=1e-7, integrator=integrator)  # fmt: skip
 
 
 def test_index_3_and_angles() -> None:
@@ -227,7 +231,6 @@ def test_transposed_solutions(text: str) -> None:
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"of": ["max POINT_MASS/2.x"], "integrator": "RADAU"}, "back along the steps of GSTIFF"),
         ({"of": ["max POINT_MASS/2.x"], "integrator": "HHT"}, "HHT is none of them"),
         ({"of": ["POINT_MASS/2.x"]}, "a gradient is that of a measure"),
         ({"of": ["maxtime POINT_MASS/2.x"]}, "has no derivative"),

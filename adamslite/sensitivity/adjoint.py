@@ -19,6 +19,7 @@ from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 from adamslite.sensitivity.adjoint_columns import Columns, Seed, weights_of
 from adamslite.sensitivity.adjoint_numbers import Chain
+from adamslite.sensitivity.adjoint_stages import StageSweep
 from adamslite.sensitivity.adjoint_sweep import Sweep
 from adamslite.sensitivity.measures import asked
 from adamslite.sensitivity.record import Sensitivities
@@ -32,8 +33,9 @@ if TYPE_CHECKING:
     from adamslite.reading.numbers import Named
 
 ALL = "all"
-METHOD = "GSTIFF"
-ONLY = "gradients go back along the steps of GSTIFF; {method} is followed forwards alone"
+ONLY = "gradients go back along the steps of {known}; {method} is followed forwards alone"
+#: What goes back along the steps of a method.
+SWEEPS: dict[str, type[Sweep]] = {"GSTIFF": Sweep, "RADAU": StageSweep}
 MEASURE = "a gradient is that of a measure, as 'max REQUEST/1.F2' or 'PART/2.x@end'"
 NUMBERS = "a gradient by what? `adamslite names DECK` lists numbers"
 NO_RUN = "derivatives are those of a dynamic analysis, and there is none"
@@ -59,10 +61,10 @@ def gradient(
     def follow(system: System, method: str) -> np.ndarray:
         if system.triggered:
             raise UsageError(SENSED)
-        if method != METHOD:
-            raise UsageError(ONLY.format(method=method))
+        if method not in SWEEPS:
+            raise UsageError(ONLY.format(known=" and ".join(SWEEPS), method=method))
         as_drawn = not (session.assembled or session.speeds)
-        made.update(_gradients(chain, system, of, named, as_drawn))
+        made.update(_gradients(chain, system, SWEEPS[method], of, named, as_drawn))
         return np.zeros(0)
 
     session.follow = follow
@@ -94,7 +96,12 @@ def _ready(study: Study, chain: Chain, named: list[Named]) -> tuple[Chain, list[
 
 
 def _gradients(
-    chain: Chain, system: System, of: Iterable[str], named: list[Named], as_drawn: bool
+    chain: Chain,
+    system: System,
+    sweep: type[Sweep],
+    of: Iterable[str],
+    named: list[Named],
+    as_drawn: bool,
 ) -> dict[str, Any]:
     """The measures of a run that has just been made, and their derivatives."""
     size, time = system.nw + system.sizes.n_out, system.times.copy()
@@ -111,7 +118,7 @@ def _gradients(
         seeds = {int(row): Seed(record[row]) for row in np.flatnonzero(weights)}
         for row, seed in seeds.items():
             places.weigh(seed, each.channel, float(weights[row]))
-        found.append(Sweep(system).back(seeds))
+        found.append(sweep(system).back(seeds))
     return {
         "time": time, "names": tuple(names[k] for k in kept),
         "columns": np.ascontiguousarray(values[:, kept]),
