@@ -128,7 +128,7 @@ def test_measures_of_a_vibration(integrator: str) -> None:
     of += ["absmax POINT_MASS/2.vx", "range POINT_MASS/2.x", "first POINT_MASS/2.ax"]
     of += ["POINT_MASS/2.x@0.77"]
     by = ["POINT_MASS/2.MASS", "POINT_MASS/2.QG[0]", "SPRINGDAMPER/1.K", "SPRINGDAMPER/1.LENGTH"]
-    compare(SPRING, of, by, end=2.0, steps=40, error=1e-7, integrator=integrator)
+    compare(SPRING, of, by, end=1.0, steps=20, error=1e-7, integrator=integrator)
 
 
 @pytest.mark.parametrize("integrator", ["GSTIFF", "RADAU"])
@@ -143,7 +143,7 @@ def test_events_where_accelerations_jump(integrator: str) -> None:
 def test_redundant_constraints_and_an_assembled_start(integrator: str) -> None:
     by = ["PART/2.MASS", "PART/3.IP[2]", "MARKER/21.QP[0]", "MARKER/2.QP[0]", "JOINT/1.IC[1]"]
     compare(FOUR_BAR, ["PART/2.wz@end", "mean VARIABLE/rocker", "max PART/3.ax"], by, 1e-8,
-            end=0.3, steps=30, error=1e-7, integrator=integrator)  # fmt: skip
+            end=0.1, steps=10, error=1e-7, integrator=integrator)  # fmt: skip
 
 
 @pytest.mark.parametrize("integrator", ["GSTIFF", "RADAU"])
@@ -151,7 +151,7 @@ def test_a_double_pendulum_with_a_state(integrator: str) -> None:
     by = ["PART/2.MASS", "PART/3.IP[2]", "MARKER/21.QP[0]", "SFORCE/1.FUNCTION[1]", "DIFF/1.IC[0]",
           "DIFF/1.FUNCTION[1]", "ACCGRAV.JGRAV"]  # fmt: skip
     compare(DOUBLE, ["PART/3.y@end", "DIFF/1@end", "mean PART/3.wz"], by, 1e-8,
-            end=1.0, steps=50, error=1e-7, integrator=integrator)  # fmt: skip
+            end=0.5, steps=25, error=1e-7, integrator=integrator)  # fmt: skip
 
 
 def test_index_3_and_angles() -> None:

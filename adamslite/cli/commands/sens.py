@@ -38,7 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     parser.add_argument(
         "--adjoint", action="store_true",
-        help="for many numbers: from the end of the run to its beginning, by GSTIFF; `--by all`",
+        help="for many numbers: from the end of the run to its beginning; `--by all`",
     )  # fmt: skip
     parser.add_argument("-o", "--output", metavar="OUT", help="file of histories (.csv, .nc, ...)")
     parser.add_argument(
