@@ -11,6 +11,7 @@ import pytest
 import adamslite as al
 from adamslite.cli.main import main
 from adamslite.errors import UsageError
+from adamslite.sensitivity.study import Study
 
 SPRING = """m x'' = -k (x - 1) - c x', let go at x = 2 at rest
 PART/1, GROUND
@@ -168,3 +169,24 @@ def test_the_command_prints_a_table_and_writes_histories(tmp_path, monkeypatch, 
     assert np.abs(written - slopes).max() <= 1e-6
     assert main([*words, "--of", "POINT_MASS/2.q"]) == 2
     assert "did you mean" in capsys.readouterr().err
+
+
+def test_a_number_that_is_known_has_the_same_derivatives_without_setting_up(monkeypatch):
+    """Once a number was put in, recipes give what it does: of a quotient, a product, a difference,
+    of a mass and of a parameter of an element.
+    """
+    text = SPRING.replace("VARIABLE/unused, FUNCTION=3\n", "").replace(
+        "REQUEST/1, F2=DX(2,1)**2\n",
+        "VFORCE/1, I=2, JFLOAT=3, RM=1, FX=3/4*DX(2,1)-(2*5-7)*VX(2,1)\\FY=0\\FZ=0\n"
+        "MARKER/3, PART=1, FLOATING\n",
+    )
+    names = ["SPRINGDAMPER/1.K", "POINT_MASS/2.MASS", *(f"VFORCE/1.FX[{k}]" for k in range(5))]
+    deck = al.read(text)
+    slowly, quickly = (
+        al.sensitivities(deck, names, ["POINT_MASS/2.x@end"], **RUN) for _ in range(2)
+    )
+    assert np.abs(slowly.gradient).min() > 0.0
+    assert quickly.gradient == pytest.approx(slowly.gradient, rel=1e-9)
+    monkeypatch.setattr(Study, "snapshot", lambda *_: pytest.fail("the model is set up again"))
+    again = al.sensitivities(deck, names, ["POINT_MASS/2.x@end"], **RUN)
+    assert np.array_equal(again.gradient, quickly.gradient)

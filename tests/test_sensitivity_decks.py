@@ -282,3 +282,20 @@ def test_a_number_that_drives_a_plane_motion_out_of_its_plane():
     assert np.abs(slopes).max() > 0.1
     assert error(found.curve("PART/2.z", "PART/2.VZ"), slopes) <= 1e-6
     assert np.abs(found.curve("PART/2.x", "PART/2.VZ")).max() <= 1e-9
+
+
+@pytest.mark.parametrize("method", ["GSTIFF", "RADAU"])
+def test_a_heavy_top_against_differences(method):
+    """Turns in space: inertia about the axis of a top that spins fast."""
+    deck, run = al.read(DECKS / "heavy-top" / "heavy-top.adm"), {"end": 0.2, "steps": 4}
+    name = "PART/2.IP[2]"
+    value = next(each.value for each in al.names(deck) if each.name == name)
+    found = al.sensitivities(deck, [name], ["PART/2.*"], error=1e-9, integrator=method, **run)
+    h = 1e-4 * value
+    ends = [
+        al.simulate(deck.with_values({name: v}), error=1e-13, integrator="RKF45", **run)
+        for v in (value + h, value - h)
+    ]
+    for channel in ("PART/2.x", "PART/2.vz", "PART/2.wx", "PART/2.wz"):
+        slopes = (ends[0][channel] - ends[1][channel]) / (2 * h)
+        assert error(found.curve(channel, name), slopes) <= 1e-5, channel
