@@ -236,12 +236,29 @@ END
 
 
 @pytest.mark.parametrize(
+    ("varied", "told"),
+    [
+        ("SIMULATE.STEPS=10.5,20", "STEPS takes a whole number"),
+        ("SIMULATE.END=-1,1", "SIMULATE ends at -1, but the time is 0 already"),
+        ("POINT_MASS/2.MASS=0,1", "POINT_MASS/2 has no mass"),
+    ],
+)
+def test_values_out_of_range_fail_by_themselves(varied: str, told: str) -> None:
+    found = al.sweep(DECK, [varied], measures=[LOWEST], workers=1)
+    assert found.outcomes == ["INVALID", "DONE"]
+    assert told in found.messages[0]
+
+
+@pytest.mark.parametrize(
     ("words", "told"),
     [
         ([f"{NAME}=1"], "nothing of the runs would be kept"),
         (["POINT_MASS/2.MAS=1", "--measure", LOWEST], "there is no number POINT_MASS/2.MAS"),
         (["k=1", "VARIABLE/k=2", "--measure", LOWEST], "VARIABLE/k.FUNCTION is varied twice"),
         ([f"{NAME}=1", "--measure", "max PART/9.x"], "no result is called 'PART/9.x'"),
+        (["UNITS.SYSTEM=MKS,CGS", "--measure", LOWEST], "'MKS' is no number, and a sweep varies"),
+        (["POINT_MASS/3.MASS=1", "--measure", LOWEST], "did you mean POINT_MASS/2.MASS"),
+        ([f"{NAME}=1", "--measure", LOWEST, "--integrator", "NONE"], "--integrator NONE: there"),
         ([f"{NAME}=1", "--measure", LOWEST, "-o", "x.csv"], "the file of a sweep ends in .nc"),
         ([f"{NAME}=1", "--measure", LOWEST, "-o", "there.nc"], "there.nc holds no sweep"),
         ([f"{NAME}=1", "--measure", LOWEST, "-o", "result.nc"], "result.nc holds no sweep"),
@@ -345,6 +362,7 @@ def test_another_sweep_is_not_written_over(path, capsys, change: str) -> None:
     assert Path("x.nc").read_bytes() == before
 
 
+@pytest.mark.filterwarnings("ignore::adamslite.errors.DeckWarning")
 def test_threads_take_turns_in_a_routine_of_the_user(monkeypatch: pytest.MonkeyPatch) -> None:
     """It has one room for what it is given."""
     monkeypatch.setattr("adamslite.sweeps.workers.LOT", 1e-3)

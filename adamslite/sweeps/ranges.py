@@ -102,7 +102,7 @@ def _number(name: str, word: object) -> float:
     try:
         value = float(word)  # type: ignore[arg-type]
     except (TypeError, ValueError):
-        raise UsageError(f"{name}: '{word}' is no number") from None
+        raise UsageError(f"{name}: '{word}' is no number, and a sweep varies numbers") from None
     if not isfinite(value):
         raise UsageError(f"{name}: '{word}' is no finite number")
     return value

@@ -12,6 +12,7 @@ from uuid import uuid4
 
 import numpy as np
 
+from adamslite.analyses.run_options import checked
 from adamslite.analyses.subject import kernels_of, prepared_for
 from adamslite.caching.program import program
 from adamslite.deck.deck import Deck
@@ -87,9 +88,9 @@ def sweep(
         When names, values or measures are not what they have to be, or the file is there and holds
         anything else.
     """
-    progress = progress or Progress()
+    progress, options = progress or Progress(), checked(options or {})
     with _carrier(means or Means(), progress) as lots_of:
-        job, made = planned(deck, wanted, commands, options or {}, progress)
+        job, made = planned(deck, wanted, commands, options, progress)
         if path is not None:
             need_writable(path, read)
             made = _gone_on_with(made, Path(path))

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from adamslite.cli.commands.codes import DONE, STOPPED_EARLY
-from adamslite.run_flags import add_user_flag, add_values_flag, count, instant, positive
+from adamslite.run_flags import add_user_flag, add_values_flag, count, positive
 
 if TYPE_CHECKING:
     from adamslite.sweeps.record import Sweep
@@ -70,10 +70,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _seed(text: str) -> int:
-    value = instant(text)
-    if value != int(value):
-        raise argparse.ArgumentTypeError(f"'{text}' must be a whole number")
-    return int(value)
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"'{text}' must be a whole number, 0 or more")
+    return int(text)
 
 
 def run(args: argparse.Namespace) -> int:
