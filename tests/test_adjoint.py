@@ -14,7 +14,7 @@ from adamslite.equations.engine import address_of
 from adamslite.errors import UsageError
 from adamslite.integrators.contract import ACCELERATION as EQUATIONS
 from adamslite.integrators.contract import ACCELERATIONS, JACOBIAN
-from adamslite.sensitivity import study
+from adamslite.sensitivity import study, taped
 from adamslite.sensitivity.transposed import ENTRY, FACTOR_RATES, SOLVE_RATES
 
 SPRING = """m x'' = -k (x - 1) - c x', let go at x = 2 at rest
@@ -241,3 +241,14 @@ def test_transposed_solutions(text: str) -> None:
 def test_what_has_no_gradient_is_told(options: dict[str, Any], words: str) -> None:
     with pytest.raises(UsageError, match=words):
         al.gradient(SPRING, **options, end=1.0, steps=10)
+
+
+def test_a_tape_that_is_too_short_is_laid_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    run: dict[str, Any] = {"end": 1.0, "steps": 10, "error": 1e-7}
+    whole = al.gradient(SPRING, ["POINT_MASS/2.x@end"], **run)
+    monkeypatch.setattr(taped, "FIRST_ROWS", 5)
+    monkeypatch.setattr(taped, "FIRST_BYTES", 0)
+    assert (al.gradient(SPRING, ["POINT_MASS/2.x@end"], **run).gradient == whole.gradient).all()
+    monkeypatch.setattr(taped, "MOST_BYTES", 5_000)
+    with pytest.raises(UsageError, match="take more than 5e-06 GB"):
+        al.gradient(SPRING, ["POINT_MASS/2.x@end"], **run)

@@ -47,6 +47,12 @@ OUT_OF_PLANE = 1e-9
 # Rows of a first tape, or as many as take so many bytes (which are there once they are written),
 # and how much longer the next one is.
 FIRST_ROWS, FIRST_BYTES, LONGER = 1000, 250_000_000, 8
+# Bytes that a tape may take.
+MOST_BYTES = 4_000_000_000
+TOO_LONG = (
+    "the states of this run take more than {most:.3g} GB, and derivatives need all of them: a "
+    "larger ERROR, or a shorter run"
+)
 
 
 class LeftPlane(Exception):
@@ -109,7 +115,8 @@ class Taped(Session):
     ) -> Outcome:
         """A run with its tape, which is followed; raises :class:`LeftPlane`."""
         settings = self.chosen.settings
-        rows = max(FIRST_ROWS, FIRST_BYTES // (8 * _width(system, settings.method)))
+        width = 8 * _width(system, settings.method)
+        rows, most = max(FIRST_ROWS, FIRST_BYTES // width), MOST_BYTES // width
         while True:
             make_ready(system, times, apart, settings)
             lay_tape(system, rows, settings.method)
@@ -117,7 +124,9 @@ class Taped(Session):
             system.audit.on = False
             if not system.tape.full:
                 break
-            rows *= LONGER
+            if rows >= most:
+                raise UsageError(TOO_LONG.format(most=MOST_BYTES / 1e9))
+            rows = min(LONGER * rows, most)
             beginning.return_to()
             planar = planar and reduce_to_plane(system)
         if planar and system.report.left_plane:
