@@ -168,6 +168,22 @@ def doubts_of(finer: Sequence[Readings], asked: tuple[str, ...]) -> dict[Key, np
     return found
 
 
+def differences(
+    one: Readings, other: Readings, truth: Readings, asked: tuple[str, ...]
+) -> dict[Key, np.ndarray]:
+    """How far two models are apart, by figure, with some safety, where both have it."""
+    return {
+        key: SAFETY * np.abs(_difference(key, one, other, truth))
+        for key in _asked(truth, asked)
+        if key in one.figures and key in other.figures
+    }
+
+
+def larger(one: Doubts, other: Doubts) -> dict[Key, np.ndarray]:
+    """Of two doubts the larger, by figure."""
+    return {key: np.maximum(each, other.get(key, 0.0)) for key, each in one.items()}
+
+
 def _asked(of: Readings, asked: tuple[str, ...]) -> list[Key]:
     return [key for key, (_, scale) in of.figures.items() if key[0] in asked and scale > 0]
 

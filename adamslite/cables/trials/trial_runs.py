@@ -22,7 +22,9 @@ from adamslite.cables.trials.readings import (
     Series,
     apart,
     columns,
+    differences,
     doubts_of,
+    larger,
     named,
     read_off,
 )
@@ -37,6 +39,8 @@ SETTLED, ROOM = 0.2, 0.92
 DEAR = 0.05
 # ERROR from rung to rung, in the order 1, 2, 5, 10 ...
 TIGHTER = 2
+# ERROR of a run that shows what ERROR does, in the same order: a tenth.
+TENTH = 3
 # Of the length: ERROR of a rung at least.
 FINEST = 1e-11
 # Work of a rung over that of the one before, at least.
@@ -216,8 +220,24 @@ class Runs:
         return off / self.of.spec.accuracy, named(key, which)
 
     def doubts(self, rungs: list[Tried]) -> Doubts:
-        """How far the last rung may be off, by figure."""
-        return doubts_of([rung.readings for rung in rungs], self.of.spec.quantities)
+        """How far the last rung may be off, by figure: by its sections and by its ERROR."""
+        asked = self.of.spec.quantities
+        found = doubts_of([rung.readings for rung in rungs], asked)
+        pair = self._tenth_of_error(rungs)
+        return larger(found, differences(*pair, rungs[-1].readings, asked)) if pair else found
+
+    def _tenth_of_error(self, rungs: list[Tried]) -> tuple[Readings, Readings] | None:
+        """The sections of the first rung with ERROR of the last one, and with a tenth of it. From
+        rung to rung both change, and what a step leaves out at a corner may stay for long as ERROR
+        falls, and fall at last: the rungs agree before that."""
+        last = rungs[-1].option.error
+        least = FINEST * self.of.demand.longest
+        if self.of.spec.error or last <= least:
+            return None
+        errors = last, max(advice.notched(last, -TENTH), least)
+        runs = [self.run(replace(rungs[0].option, error=error)) for error in errors]
+        one, other = (each.readings if each else None for each in runs)
+        return (one, other) if one and other else None
 
     def doubt(self, rungs: list[Tried]) -> float:
         """The largest of them, in parts of the accuracy."""
