@@ -229,10 +229,12 @@ class Runs:
     def _tenth_of_error(self, rungs: list[Tried]) -> tuple[Readings, Readings] | None:
         """The sections of the first rung with ERROR of the last one, and with a tenth of it. From
         rung to rung both change, and what a step leaves out at a corner may stay for long as ERROR
-        falls, and fall at last: the rungs agree before that."""
+        falls, and fall at last: the rungs agree before that. None where these runs are dear, too,
+        or ERROR is given."""
         last = rungs[-1].option.error
         least = FINEST * self.of.demand.longest
-        if self.of.spec.error or last <= least:
+        is_dear = GROWTH * rungs[0].work > DEAR * self.allowance
+        if self.of.spec.error or last <= least or is_dear:
             return None
         errors = last, max(advice.notched(last, -TENTH), least)
         runs = [self.run(replace(rungs[0].option, error=error)) for error in errors]
