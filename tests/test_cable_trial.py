@@ -13,7 +13,7 @@ from adamslite.api.trials import described, solver
 from adamslite.cables.deck.scene import deck, setting
 from adamslite.cables.description.head_comments import below
 from adamslite.cables.model.advice import notched
-from adamslite.cables.trials.readings import Series
+from adamslite.cables.trials.readings import Readings, Series, doubts_of
 from adamslite.cables.trials.trial import Found, tried
 from adamslite.cables.trials.trial_runs import TOO_LONG, Solution
 from adamslite.cli.main import main
@@ -88,6 +88,42 @@ def test_a_loose_error_is_taken_where_it_is_cheaper_and_does() -> None:
 
     found = tried(first, solve, 10.0)
     assert found.deck.model.error == pytest.approx(10 * error)
+
+
+@pytest.mark.parametrize("plateau", [1e-8, 2e-8, 5e-8])
+def test_an_error_that_stays_as_error_falls_is_seen(plateau: float) -> None:
+    """2 % that ERROR leaves until it is small, about which 22, 44 and 88 sections agree."""
+
+    def error(n: int, bound: float) -> float:
+        return 0.02 * min(1.0, bound / plateau) + 0.05 / n**2
+
+    chosen = with_trial(made_up(error, steps=2000)).deck.model
+    assert error(chosen.elements, chosen.error) < 0.01
+
+
+def test_where_nothing_settles_but_differences_fall_the_finest_is_taken() -> None:
+    """An error of 0.5/n^0.3: 7 % are left with the most sections that a cable may have."""
+    found = with_trial(made_up(lambda n, error: 0.5 / n**0.3))
+    assert codes(found) == ["unsettled"]
+    assert found.finest and found.deck.model.elements == found.finest.elements > 450
+
+
+@pytest.mark.parametrize(
+    ("means", "off"),
+    [
+        ((0.0, 4.0, 6.0), 2.5),
+        ((0.0, 4.0, 5.0), 1.25 / 3),
+        ((0.0, 2.0, 6.0), 5 / 0.37),
+        ((0.0, -4.0, -6.0), 2.5),
+        ((0.0, 4.0, 2.0), 2.0),
+    ],
+)
+def test_what_the_finest_run_is_off(means: tuple[float, ...], off: float) -> None:
+    """1.25 d f/(1 - f) with f = 1/2, 1/4; as of a front, 1/0.37, where differences grow; what the
+    last two span where they change their sign."""
+    key = ("tension", 1, 0)
+    runs = [Readings({key: (np.full(3, mean), 1.0)}) for mean in means]
+    assert doubts_of(runs, ("tension",))[key] == pytest.approx(np.full(3, off), rel=1e-12)
 
 
 def test_level_1_is_taken_where_it_does() -> None:
