@@ -90,7 +90,7 @@ def test_a_number_that_nothing_uses_has_zeros_and_a_word():
         ("SPRINGDAMPER/1.K", "maxtime POINT_MASS/2.x", {}, "has no derivative"),
         ("SPRINGDAMPER/1.K", "POINT_MASS/2.x@soon", {}, "behind @"),
         ("SPRINGDAMPER/1.K", "POINT_MASS/2.x@9", {}, "from 0 to 3"),
-        ("REQUEST/1.F2", "POINT_MASS/2.x@end", {}, "form of an expression"),
+        ("REQUEST/1.F2", "POINT_MASS/2.x@end", {}, "decides a form"),
         ("SPRINGDAMPER/1.K", "POINT_MASS/2.x@end", {"integrator": "ABAM"}, "ABAM"),
     ],
 )

@@ -13,6 +13,7 @@ from adamslite.analyses.subject import deck_of, kernels_of, prepared_for
 from adamslite.equations.result_columns import columns
 from adamslite.errors import RunFailed, UsageError
 from adamslite.kernels.groups import Kernels
+from adamslite.language.diagnostics import DeckError
 from adamslite.model.model import PART
 from adamslite.model.reduction import MERGED
 from adamslite.results.outcomes import Outcome
@@ -28,6 +29,7 @@ from adamslite.variation.kernels import of_deck
 if TYPE_CHECKING:
     from adamslite.analyses.session import Session
     from adamslite.analyses.subject import Subject
+    from adamslite.deck.deck import Deck
     from adamslite.deck.redefinition import Command
     from adamslite.equations.system import System
     from adamslite.progress import Progress
@@ -35,8 +37,8 @@ if TYPE_CHECKING:
 
 UNUSED = "no equation hangs on it: nothing moves otherwise"
 FORM = (
-    "{name} is part of the form of an expression (an exponent, a constant of a call): there is no "
-    "derivative by it"
+    "{name} decides a form or is a whole number (an exponent, a flag, a constant of a call): there "
+    "is no derivative by it"
 )
 TABLE = "{name} is a number of a table: there is no derivative by it yet"
 SENSED = "A SENSOR ended the run: derivatives where the end itself moves are not worked out"
@@ -166,7 +168,7 @@ class Study:
         base = [group.name for group in self.kernels.groups]
         beside = {}
         for each in named:
-            deck = self.deck.with_values({each.name: each.value + self._step(each)})
+            deck = self._varied(each, self._step(each))
             if [group.name for group in of_deck(self.kernels, deck).groups] != base:
                 beside[each.name] = each.value + NUDGE * self._step(each)
         if beside:
@@ -195,9 +197,16 @@ class Study:
         """Snapshots beside the value of a number."""
         h, found = self._step(number), {}
         for k in STENCIL:
-            deck = self.deck.with_values({number.name: number.value + k * h})
+            deck = self._varied(number, k * h)
             found[k] = self.snapshot(of_deck(self.kernels, deck))[1]
         return found
+
+    def _varied(self, number: Named, change: float) -> Deck:
+        """The deck with another value of a number, beside its own."""
+        try:
+            return self.deck.with_values({number.name: number.value + change})
+        except DeckError as fault:
+            raise UsageError(FORM.format(name=number.name)) from fault
 
     def _step(self, number: Named) -> float:
         """Distance of the values: a share of it, or of the numbers beside a zero."""
