@@ -15,7 +15,7 @@ import numpy as np
 
 from adamslite.kernels.groups import LEVELS
 from adamslite.language.diagnostics import DeckError
-from adamslite.language.traced import WRITTEN, Recipe, places
+from adamslite.language.traced import WRITTEN, Recipe, Traced, places
 from adamslite.model.model import PART
 from adamslite.sensitivity.adjoint_sweep import Derivatives
 from adamslite.sensitivity.directions import SHARE, Snapshot
@@ -175,7 +175,12 @@ class Chain:
         """By making one body with other values."""
         h, total, system = SHARE * abs(each.value), 0.0, self.system
         i, n, model = system.starts[b], system.n, system.model
-        (number, _), *_ = self.variable.fields[each.at]
+        (number, name), *_ = self.variable.fields[each.at]
+        own = self.variable.numbers.deck.own[number]
+        value = getattr(own, name)
+        if name == "mass" and own.keyword == "POINT_MASS" and type(value) is Traced:
+            factor = each.digits(1.0) * slope(value.recipe, self.written, each.at)
+            return float(factor * derivatives.numbers.mass[b] / model.deck.ucf)
         here = model.body_of(cast("Part", self.variable.deck.own[number]))
         for share, weight in AROUND.items():
             changed = self.variable.statements({each.name: each.value + share * h})

@@ -96,6 +96,8 @@ class Weights:
             (int(system.group[k].phases), *map(_called, pullback(kernels, group)), self._given(k))
             for k, group in enumerate(kernels.groups)
         ]
+        self.active: dict[int, list[tuple[Any, tuple[int, int, int, int]]]] = {}
+        self.of_time = any(own & SIGNALS for own, *_ in self.calls)
         self.slopes_of_w = np.zeros(system.nw + 1)
         starts, widths = np.array(system.starts[:nb], dtype=int), system.widths[:nb]
         at = np.array([system.w_at["BODY", b] for b in range(nb)], dtype=int)
@@ -158,10 +160,12 @@ class Weights:
         G = self.slopes_of_w
         G[:] = 0.0
         w, nu, g = self.system.W.ctypes.data, weights.ctypes.data, G.ctypes.data
-        for own, call, _, (count, ints, reals, target) in self.calls:
-            if own & phases and call:
-                call(count, ints, reals, w, nu, g, target)
-        self._signals()
+        if phases not in self.active:
+            self.active[phases] = [(call, g) for own, call, _, g in self.calls if own & phases]
+        for call, (count, ints, reals, target) in self.active[phases]:
+            call(count, ints, reals, w, nu, g, target)
+        if self.of_time:
+            self._signals()
 
     def _signals(self) -> None:
         """Variables of time: each before those that it reads."""
