@@ -1,5 +1,5 @@
 """Fits: numbers, standard errors and correlations against regression in closed form, and what a
-measurement cannot tell.
+measurement does not determine.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ def test_a_linear_fit_is_the_regression_in_closed_form(sigma_y: float, sigma_v: 
     assert found.errors == pytest.approx(errors, rel=1e-4)
     assert found.covariance == pytest.approx(covariance, rel=1e-3, abs=1e-4 * errors.min() ** 2)
     assert found.correlation == pytest.approx(covariance / np.outer(errors, errors), abs=1e-4)
-    assert found.is_told and not found.stopped
+    assert found.is_identifiable and not found.stopped
 
 
 def test_bands_count_beside_each_other_and_not_by_their_size() -> None:
@@ -149,21 +149,21 @@ def test_slopes_of_coordinates_are_their_derivatives(given: tuple[float, float, 
     assert parameter.coordinate(parameter.low) < 0 < parameter.coordinate(parameter.high)
 
 
-# ---- what the measurement cannot tell ----------------------------------------------------------
+# ---- what the measurement does not determine --------------------------------------------------
 
 
 def test_a_free_oscillation_tells_ratios_alone() -> None:
     x = swinging(LONG) + noisy(101, 1e-3)
     deck = al.read("swings.adm", values={K: 150, C: 1})
     found = al.fit(deck, table(LONG, x=x), by=[K, C, MASS])
-    (untold,) = found.certainty.untold
-    assert untold.is_untold and set(untold.parts) == {K, C, MASS}
-    assert [*untold.parts.values()] == pytest.approx([1, 1, 1], abs=0.02)
+    (unidentifiable,) = found.certainty.unidentifiable
+    assert unidentifiable.is_silent and set(unidentifiable.parts) == {K, C, MASS}
+    assert [*unidentifiable.parts.values()] == pytest.approx([1, 1, 1], abs=0.02)
     assert np.isnan(found.errors).all()
     k, c, m = found.values
     two = al.fit(deck, table(LONG, x=x), by=[K, C])
     assert [k / m, c / m] == pytest.approx(two.values / 2, abs=0.1 * two.errors.min())
-    assert "K, SPRINGDAMPER/1.C and POINT_MASS/2.MASS apart" in str(found)
+    assert "K, SPRINGDAMPER/1.C and POINT_MASS/2.MASS: changes" in str(found)
 
 
 def test_a_number_without_influence_is_named_and_the_others_are_told() -> None:
@@ -173,8 +173,8 @@ def test_a_number_without_influence_is_named_and_the_others_are_told() -> None:
         "swings.adm", table(LONG, x=x), by=[K, C, "POINT_MASS/2.QG[1]"],
         bounds={"POINT_MASS/2.QG[1]": (-1, 1)},
     )  # fmt: skip
-    (untold,) = other.certainty.untold
-    assert [*untold.parts] == ["POINT_MASS/2.QG[1]"]
+    (unidentifiable,) = other.certainty.unidentifiable
+    assert [*unidentifiable.parts] == ["POINT_MASS/2.QG[1]"]
     assert other.errors[:2] == pytest.approx(found.errors, rel=1e-3)
 
 
@@ -188,17 +188,17 @@ def test_numbers_that_are_told_only_poorly_apart_are_named() -> None:
     s2 = 2 * n / (2 * n - 2)
     expected = s2 / n * np.array([[1 + e**-2, -(e**-2)], [-(e**-2), e**-2]])
     assert found.covariance == pytest.approx(expected, rel=1e-9)
-    (weak,) = found.untold
-    assert not weak.is_untold and weak.parts == pytest.approx({"a": 1.0, "b": -1.0}, rel=1e-3)
+    (weak,) = found.unidentifiable
+    assert not weak.is_silent and weak.parts == pytest.approx({"a": 1.0, "b": -1.0}, rel=1e-3)
     assert weak.error == pytest.approx(np.sqrt(np.linalg.eigvalsh(expected)[-1]))
-    assert "cannot tell a and b apart" in str(weak)
+    assert "cannot separate a and b" in str(weak)
     # where the Jacobian is off by as much as the second number differs from the first
     off = np.tile([[0.0, 0.0], [0.0, e]], (n, 1))
-    (lost,) = certainty(jacobian, off, residuals, ["a", "b"], free).untold
-    assert lost.is_untold and lost.parts == pytest.approx({"a": 1.0, "b": -1.0}, rel=1e-3)
+    (lost,) = certainty(jacobian, off, residuals, ["a", "b"], free).unidentifiable
+    assert lost.is_silent and lost.parts == pytest.approx({"a": 1.0, "b": -1.0}, rel=1e-3)
     held = certainty(jacobian, off, residuals, ["a", "b"], np.array([True, False]))
     assert held.covariance[0, 0] == pytest.approx(2 * n / (2 * n - 1) / n)
-    assert not held.untold
+    assert not held.unidentifiable
 
 
 def test_a_number_at_its_bound_has_no_standard_error() -> None:

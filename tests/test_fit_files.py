@@ -144,8 +144,8 @@ def test_the_command_says_what_it_found(capsys: Any) -> None:
     command = ["fit", "swings.adm", "measured.csv", "--quiet", "--by"]
     assert main([*command, K, C, MASS, "-o", "out.adm"]) == 1
     said = capsys.readouterr()
-    assert "cannot tell" in said.out and "out.adm" in said.err
-    assert "cannot tell" in Path("out.adm").read_text()
+    assert "cannot separate" in said.out and "out.adm" in said.err
+    assert "cannot separate" in Path("out.adm").read_text()
     assert main([*command, K, "--set", f"{K}=250", "--plot", "fit.svg"]) == 0
     assert "250" in capsys.readouterr().out and Path("fit.svg").stat().st_size > 1000
     for wrong in (["-o", "swings.adm"], ["-o", "measured.csv"], ["--plot", "fit.doc"]):

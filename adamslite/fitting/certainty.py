@@ -1,4 +1,4 @@
-"""How sure fitted numbers are, and which of them the measurement cannot tell.
+"""How sure fitted numbers are, and which of them the measurement does not determine.
 
 Equations, with the Jacobian S (n, np) of the residuals by relative changes of the numbers::
 
@@ -6,9 +6,9 @@ Equations, with the Jacobian S (n, np) of the residuals by relative changes of t
     cov   = s^2 (S^T S)^-1,    standard errors: roots of its diagonal
     S     = U diag(w) V^T      singular values of S, and of S with columns of length one
 
-A combination V_k is not told by the measurement where the singular value of the normalised
-Jacobian is no larger than what its derivatives are off by, and poorly told where s / w_k is larger
-than one: a change by its whole size would not be seen.
+A combination V_k is not identifiable where the singular value of the normalised
+Jacobian is no larger than what its derivatives are off by, and poorly determined where s / w_k is
+larger than one: a change by its whole size would not be seen.
 """
 
 from __future__ import annotations
@@ -32,43 +32,43 @@ class Combination:
     """Relative changes of numbers that together leave the measured curves as they are.
 
     ``parts``: by name, the largest is 1; ``error``: standard error of such a change, infinite
-    where it is not told at all.
+    where it is not identifiable.
     """
 
     parts: dict[str, float]
     error: float
 
     @property
-    def is_untold(self) -> bool:
+    def is_silent(self) -> bool:
         """Whether the measurement says nothing about it."""
         return not np.isfinite(self.error)
 
     def __str__(self) -> str:
         names = [*self.parts]
         if len(names) == 1:
-            how = SILENT if self.is_untold else f"its standard error is {100 * self.error:.3g} %"
-            return f"the measurement cannot tell {names[0]}: {how}"
+            how = SILENT if self.is_silent else f"its standard error is {100 * self.error:.3g} %"
+            return f"the measurement does not determine {names[0]}: {how}"
         listed = f"{', '.join(names[:-1])} and {names[-1]}"
         changes = ", ".join(f"{share:+.2g} %" for share in self.parts.values())
         how = (
-            "leave every measured channel as it is" if self.is_untold
+            "leave every measured channel as it is" if self.is_silent
             else f"have a standard error of {100.0 * self.error:.3g} times that"
         )  # fmt: skip
-        return f"the measurement cannot tell {listed} apart: changes of {changes} together {how}"
+        return f"the measurement cannot separate {listed}: changes of {changes} together {how}"
 
 
 @dataclass(frozen=True, eq=False)
 class Certainty:
-    """Covariance (np, np) of relative changes, not a number where something is not told.
+    """Covariance (np, np) of relative changes, not a number where something is not identifiable.
 
-    ``correlation`` (np, np); ``untold``: combinations that the measurement does not tell;
-    ``singular_values`` (np,) of the Jacobian with columns of length one, ``floor``: what errors
-    of derivatives make of it.
+    ``correlation`` (np, np); ``unidentifiable``: combinations that the measurement does not
+    determine; ``singular_values`` (np,) of the Jacobian with columns of length one, ``floor``: what
+    errors of derivatives make of it.
     """
 
     covariance: np.ndarray
     correlation: np.ndarray
-    untold: tuple[Combination, ...]
+    unidentifiable: tuple[Combination, ...]
     singular_values: np.ndarray
     floor: float
 
@@ -98,15 +98,15 @@ def certainty(
     _, singular, rows = np.linalg.svd(jacobian[:, heard] / lengths, full_matrices=False)
     doubt = np.linalg.norm(off[:, heard] / lengths, 2) if own else 0.0
     floor = max(ROUND_OFF, CLEAR * float(doubt))
-    told = singular > floor
-    blind = _simplest(rows[~told] / lengths)
-    inverse = rows[told].T / singular[told] / lengths[:, None]
-    squared = residuals @ residuals / max(len(residuals) - int(told.sum()), 1)
+    determined = singular > floor
+    blind = _simplest(rows[~determined] / lengths)
+    inverse = rows[determined].T / singular[determined] / lengths[:, None]
+    squared = residuals @ residuals / max(len(residuals) - int(determined.sum()), 1)
     covariance = squared * (inverse @ inverse.T)
     hidden = np.asarray(_parts(blind).any(axis=0))
     covariance[hidden, :] = covariance[:, hidden] = np.nan
     errors = np.sqrt(np.diag(covariance))
-    untold = [
+    unidentifiable = [
         *(Combination({names[k]: 1.0}, np.inf) for k in np.flatnonzero(silent).tolist()),
         *(_combination(each, np.inf, own) for each in blind),
         *_weak(covariance, hidden, own),
@@ -114,7 +114,7 @@ def certainty(
     return Certainty(
         _whole(covariance, heard, len(names)),
         _whole(covariance / np.outer(errors, errors), heard, len(names)),
-        tuple(untold), singular, floor,
+        tuple(unidentifiable), singular, floor,
     )  # fmt: skip
 
 
@@ -151,13 +151,13 @@ def _parts(rows: np.ndarray) -> np.ndarray:
 
 
 def _weak(covariance: np.ndarray, blind: np.ndarray, names: Sequence[str]) -> list[Combination]:
-    """Combinations that are told worse than by their whole size."""
-    told = np.flatnonzero(~blind).tolist()
-    variances, axes = np.linalg.eigh(covariance[np.ix_(told, told)])
-    own = [names[k] for k in told]
+    """Combinations that are determined worse than by their whole size."""
+    determined = np.flatnonzero(~blind).tolist()
+    variances, axes = np.linalg.eigh(covariance[np.ix_(determined, determined)])
+    own = [names[k] for k in determined]
     return [
         _combination(axes[:, k], float(np.sqrt(variances[k])), own)
-        for k in range(len(told))[::-1]
+        for k in range(len(determined))[::-1]
         if variances[k] > 1.0
     ]
 

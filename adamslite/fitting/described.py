@@ -18,7 +18,7 @@ from adamslite.variation.decks import with_values
 
 #: The last look at a fit has runs whose ERROR is smaller by this, with wider differences.
 TIGHTER, WIDER = 0.1, 2.0
-#: What is told: numbers that the runs' own errors move by this part of a standard error,
+#: What is reported: numbers that the runs' own errors move by this part of a standard error,
 MOVED = 0.1
 #: residuals of neighbouring times that are so much alike, numbers that are so much smaller now.
 ALIKE, VANISHED = 0.3, 1e-3
@@ -69,7 +69,7 @@ def _judged(
     try:
         own = search.derivatives.at(values.tolist())
     except Failed as fault:
-        return unknown(names), [] if stopped else [f"how sure it is cannot be told: {fault}"]
+        return unknown(names), [] if stopped else [f"the standard errors are not known: {fault}"]
     tight, said = _tighter(search.derivatives, values, error)
     residuals, sizes = search.residuals(own.values), _sizes(runs, values)
     jacobian, other = (_relative(each, measured, sigmas, sizes) for each in (own, tight or own))
@@ -110,13 +110,13 @@ def _moved(
     jacobian: np.ndarray, moved: np.ndarray, errors: np.ndarray, names: list[str], error: float
 ) -> list[str]:
     """Numbers that a smaller ERROR would move, to first order."""
-    told = np.isfinite(errors)
-    if not told.any() or not moved.any():
+    known = np.isfinite(errors)
+    if not known.any() or not moved.any():
         return []
-    change = np.linalg.lstsq(jacobian[:, told], -moved, rcond=None)[0]
+    change = np.linalg.lstsq(jacobian[:, known], -moved, rcond=None)[0]
     with np.errstate(divide="ignore"):
-        shares = np.abs(change) / errors[told]
-    own = [name for name, is_told in zip(names, told, strict=True) if is_told]
+        shares = np.abs(change) / errors[known]
+    own = [name for name, is_known in zip(names, known, strict=True) if is_known]
     worst = int(np.argmax(shares))
     if not MOVED < shares[worst] < np.inf:
         return []

@@ -6,7 +6,7 @@ Equation::
 
 by the trust-region reflective method, in the coordinates of :mod:`adamslite.fitting.parameters`.
 A run that fails makes the region smaller.  The squares of e x are added, with e a millionth of the
-largest singular value: what the measurement does not tell at all stays where it began.
+largest singular value: what the measurement does not determine at all stays where it began.
 """
 
 from __future__ import annotations

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
 
 HEAD = ("number", "start", "fitted", "standard error", "")
-UNTOLD, AT_BOUND = "not told", "at its bound"
+UNIDENTIFIABLE, AT_BOUND = "not identifiable", "at its bound"
 #: Correlations are printed for so many numbers; of more only those that are larger than this.
 MOST_SHOWN, LARGE = 8, 0.95
 #: Between these sizes numbers are written without exponent, with so many places at most.
@@ -53,10 +53,10 @@ class Fit:
     parameters : tuple of Parameter
         What was fitted: name, start, bounds.
     values, errors : (np,) arrays
-        Fitted values and their standard errors; not a number where the measurement does not tell a
-        number, or where it is at its bound.
+        Fitted values and their standard errors; not a number where the measurement does not
+        determine a number, or where it is at its bound.
     certainty : Certainty
-        Correlation, and combinations that the measurement does not tell.
+        Correlation, and combinations that the measurement does not determine.
     residuals : tuple of Residual
         One for each channel.
     deck : Deck
@@ -141,11 +141,11 @@ class Fit:
         return np.array([abs(value) or each.scale for each, value in pairs])
 
     @property
-    def is_told(self) -> bool:
-        """Whether the measurement tells all numbers that are not at a bound."""
+    def is_identifiable(self) -> bool:
+        """Whether the measurement determines all numbers that are not at a bound."""
         pairs = zip(self.parameters, self.values, self.errors, strict=True)
         known = all(np.isfinite(error) or each.at_bound(value) for each, value, error in pairs)
-        return known and not self.certainty.untold
+        return known and not self.certainty.unidentifiable
 
     @property
     def text(self) -> str:
@@ -160,7 +160,7 @@ class Fit:
         lines = [f"Fitted by adamslite to {self.measured.name}: {count} values of {names}"]
         rows = zip(self.phrases, self._rows(), strict=True)
         lines += [f"{phrase} (standard error), before {row[1]}" for phrase, row in rows]
-        lines += [str(each) for each in self.certainty.untold]
+        lines += [str(each) for each in self.certainty.unidentifiable]
         return [*lines, *([self.stopped] if self.stopped else [])]
 
     def save(self, path: str | Path) -> None:
@@ -180,10 +180,10 @@ class Fit:
         """Number, start, fitted, standard error, and that as a part."""
         found = []
         for each, value, error in zip(self.parameters, self.values, self.errors, strict=True):
-            told = np.isfinite(error)
-            why = AT_BOUND if each.at_bound(value) else UNTOLD
-            shown, off = _with_error(value, error) if told else (f"{value:.6g}", why)
-            part = f"{100.0 * error / abs(value):.2g} %" if told and value else ""
+            known = np.isfinite(error)
+            why = AT_BOUND if each.at_bound(value) else UNIDENTIFIABLE
+            shown, off = _with_error(value, error) if known else (f"{value:.6g}", why)
+            part = f"{100.0 * error / abs(value):.2g} %" if known and value else ""
             found.append((short(each.name), f"{each.start:.6g}", shown, off, part))
         return found
 
@@ -231,8 +231,8 @@ class Fit:
         return [*pairs, ""] if pairs else []
 
     def _said(self) -> list[str]:
-        told = [str(each) for each in self.certainty.untold]
-        said = [*self.notes, *told, *([self.stopped] if self.stopped else [])]
+        silent = [str(each) for each in self.certainty.unidentifiable]
+        said = [*self.notes, *silent, *([self.stopped] if self.stopped else [])]
         return ["", *said] if said else []
 
 

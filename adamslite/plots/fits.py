@@ -52,7 +52,7 @@ def drawn(fit: Fit) -> Figure:
 def _notes(fit: Fit) -> list[str]:
     """Small print: the numbers, and channels without room."""
     found = [f"Fitted, with standard errors: {'; '.join(fit.phrases)}."]
-    found += [str(each) for each in fit.certainty.untold]
+    found += [str(each) for each in fit.certainty.unidentifiable]
     if more := len(fit.measured.channels) - MOST:
         found += [f"{more} more channels are not drawn."] if more > 0 else []
     return found

@@ -4,9 +4,9 @@ MEASURED is a table with `time` first and columns that are called as the results
 stand behind names (`REQUEST/1.F2 [kN]`). Lines `# tolerance NAME: abs A rel R` are its bands, by
 which residuals are weighted; of channels without one the noise is estimated. The numbers of --by
 (`adamslite names` lists them) are fitted by least squares and printed with standard errors and
-correlations, and what the measurement cannot tell is named. DECK with the fitted numbers goes to
-its name with .fitted.adm in the current directory, or to OUT. Exit code 1: some numbers are not
-told; 4: the fit stopped early.
+correlations, and what the measurement does not determine is named. DECK with the fitted numbers
+goes to its name with .fitted.adm in the current directory, or to OUT. Exit code 1: some numbers
+are not identifiable; 4: the fit stopped early.
 """
 
 import argparse
@@ -89,7 +89,7 @@ def run(args: argparse.Namespace) -> int:
         sys.stderr.write(f"{args.plot}: measured and fitted curves\n")
     if found.stopped:
         return STOPPED_EARLY
-    return DONE if found.is_told else OUTSIDE_TOLERANCE
+    return DONE if found.is_identifiable else OUTSIDE_TOLERANCE
 
 
 def _need_figure(path: str) -> None:
