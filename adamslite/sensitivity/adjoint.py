@@ -63,8 +63,8 @@ def gradient(
             raise UsageError(SENSED)
         if method not in SWEEPS:
             raise UsageError(ONLY.format(known=" and ".join(SWEEPS), method=method))
-        as_drawn = not (session.assembled or session.speeds)
-        made.update(_gradients(chain, system, SWEEPS[method], of, named, as_drawn))
+        begun = (not (session.assembled or session.speeds), bool(session.history.pieces))
+        made.update(_gradients(chain, system, SWEEPS[method], of, named, begun))
         return np.zeros(0)
 
     session.follow = follow
@@ -101,9 +101,11 @@ def _gradients(
     sweep: type[Sweep],
     of: Iterable[str],
     named: list[Named],
-    as_drawn: bool,
+    begun: tuple[bool, bool],
 ) -> dict[str, Any]:
-    """The measures of a run that has just been made, and their derivatives."""
+    """The measures of a run that has just been made, and their derivatives; ``begun``: whether it
+    starts as it is drawn, and whether another analysis came before.
+    """
     size, time = system.nw + system.sizes.n_out, system.times.copy()
     record = system.record[: len(time) * size].reshape(len(time), size).copy()
     names, values = columns(system, record)
@@ -123,5 +125,5 @@ def _gradients(
         "time": time, "names": tuple(names[k] for k in kept),
         "columns": np.ascontiguousarray(values[:, kept]),
         "measures": tuple(map(str, measures)), "values": np.array(numbers),
-        "gradient": np.array([chain.along(system, as_drawn, each, named) for each in found]),
+        "gradient": np.array([chain.along(system, *begun, each, named) for each in found]),
     }  # fmt: skip

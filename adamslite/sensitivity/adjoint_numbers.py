@@ -104,12 +104,19 @@ class Chain:
         return each.argument.start or "IC" in each.argument.keys
 
     def along(
-        self, system: System, as_drawn: bool, derivatives: Derivatives, named: list[Named]
+        self,
+        system: System,
+        as_drawn: bool,
+        settled: bool,
+        derivatives: Derivatives,
+        named: list[Named],
     ) -> np.ndarray:
         """The derivatives by numbers of the deck; ``as_drawn``: constraints have moved nothing at
-        the start.
+        the start, ``settled``: another analysis has led to it, so that any number may move it.
         """
         self.system, self.free = system, system.m == 0 or as_drawn
+        if settled:
+            return np.array([self._around(derivatives, each) for each in named])
         return np.array([self._along(derivatives, each) for each in named])
 
     def _along(self, derivatives: Derivatives, each: Named) -> float:
@@ -173,7 +180,7 @@ class Chain:
 
     def _of_body(self, derivatives: Derivatives, each: Named, b: int) -> float:
         """By making one body with other values."""
-        h, total, system = SHARE * abs(each.value), 0.0, self.system
+        h, total, system = self.study.step(each), 0.0, self.system
         i, n, model = system.starts[b], system.n, system.model
         (number, name), *_ = self.variable.fields[each.at]
         own = self.variable.numbers.deck.own[number]

@@ -154,9 +154,9 @@ class Study:
         def found(system: System, as_drawn: bool) -> list[Direction]:
             for each in named:
                 if each.name in quick and known.is_load(each):
-                    made[each.name] = known.load(system, each, self._step(each))
+                    made[each.name] = known.load(system, each, self.step(each))
                 elif each.name in quick and as_drawn:
-                    made[each.name] = known.mass(system, each, self._step(each))
+                    made[each.name] = known.mass(system, each, self.step(each))
                 elif each.name not in made:
                     made[each.name] = self.direction(*self.snapshot(self.kernels), each)
             return [made[each.name] for each in named]
@@ -168,9 +168,9 @@ class Study:
         base = [group.name for group in self.kernels.groups]
         beside = {}
         for each in named:
-            deck = self._varied(each, self._step(each))
+            deck = self._varied(each, self.step(each))
             if [group.name for group in of_deck(self.kernels, deck).groups] != base:
-                beside[each.name] = each.value + NUDGE * self._step(each)
+                beside[each.name] = each.value + NUDGE * self.step(each)
         if beside:
             self.deck = self.deck.with_values(beside)
             self.kernels = of_deck(self.kernels, self.deck)
@@ -188,14 +188,14 @@ class Study:
             raise UsageError(FORM.format(name=number.name))
         if any(one.tables != base.tables for one in around.values()):
             raise UsageError(TABLE.format(name=number.name))
-        found = direction(system, base, around, self._step(number))
+        found = direction(system, base, around, self.step(number))
         if not found.pieces and not found.start.any():
             alone(self.deck).add(number.name)
         return found
 
     def _around(self, number: Named) -> dict[int, Snapshot]:
         """Snapshots beside the value of a number."""
-        h, found = self._step(number), {}
+        h, found = self.step(number), {}
         for k in STENCIL:
             deck = self._varied(number, k * h)
             found[k] = self.snapshot(of_deck(self.kernels, deck))[1]
@@ -208,7 +208,7 @@ class Study:
         except DeckError as fault:
             raise UsageError(FORM.format(name=number.name)) from fault
 
-    def _step(self, number: Named) -> float:
+    def step(self, number: Named) -> float:
         """Distance of the values: a share of it, or of the numbers beside a zero."""
         scale = self._scale(number)
         size = abs(number.value)
