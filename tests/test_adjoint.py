@@ -252,3 +252,26 @@ def test_a_tape_that_is_too_short_is_laid_again(monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setattr(taped, "MOST_BYTES", 5_000)
     with pytest.raises(UsageError, match="take more than 5e-06 GB"):
         al.gradient(SPRING, ["POINT_MASS/2.x@end"], **run)
+
+
+def test_an_equilibrium_before_moves_with_every_number() -> None:
+    """At rest the mass is where the spring is as long as it is unloaded, whatever was known of the
+    deck before.
+    """
+    analyses = "SIMULATE/STATICS\nSIMULATE/DYNAMIC, END=0.5, STEPS=5\nEND\n"
+    deck, by = al.read(SPRING.replace("END\n", analyses)), ["SPRINGDAMPER/1.LENGTH"]
+    for _ in range(3):
+        forwards = al.sensitivities(deck, by, ["max POINT_MASS/2.x"]).gradient
+        back = al.gradient(deck, ["max POINT_MASS/2.x"], by).gradient
+        assert forwards == pytest.approx(1.0, rel=1e-9)
+        assert back == pytest.approx(1.0, rel=1e-9)
+
+
+def test_numbers_that_are_zero_and_numbers_that_were_put_in() -> None:
+    run: dict[str, Any] = {"end": 1.0, "steps": 10, "error": 1e-8}
+    by = ["POINT_MASS/2.QG[1]", "POINT_MASS/2.QG[0]", "SPRINGDAMPER/1.K"]
+    deck = al.with_values(al.read(SPRING), {"SPRINGDAMPER/1.K": 9.0})
+    forwards = al.sensitivities(deck, by, ["POINT_MASS/2.x@end"], **run)
+    back = al.gradient(deck, ["POINT_MASS/2.x@end"], by, **run)
+    assert back.gradient == pytest.approx(forwards.gradient, rel=1e-8, abs=1e-12)
+    assert list(back.at) == list(forwards.at)

@@ -139,7 +139,7 @@ class Study:
             When a number decides more than values.
         """
         known = Known(self.kernels)
-        quick = {each.name for each in named if known.is_load(each) or known.is_mass(each)}
+        quick = self._quick(known, named)
         slow = [each for each in named if each.name not in quick]
         if slow:
             self.put_beside(slow)
@@ -162,6 +162,14 @@ class Study:
             return [made[each.name] for each in named]
 
         return found
+
+    def _quick(self, known: Known, named: list[Named]) -> set[str]:
+        """Numbers whose way into arrays is known; behind an equilibrium, which any number moves,
+        there are none.
+        """
+        if sum(each.keyword == "SIMULATE" for each in self.plan) > 1:
+            return set()
+        return {each.name for each in named if known.is_load(each) or known.is_mass(each)}
 
     def put_beside(self, named: list[Named]) -> None:
         """Put a hair beside its value what has another form there."""
