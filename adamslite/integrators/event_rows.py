@@ -38,6 +38,7 @@ class Search(Record):
                          ``hunt_end`` is still ahead
     loose, let_go        guards are evaluated as they are: always, for one try; ``again``: for this
     crawl                tiny steps after a guard was let go
+    turned               changes of branches at the start of a step since the last accepted one
     looks, looked        looks in this step, the last share that was examined for a dip
     known, rated         whether the rates at the start and at the end are known
     taken                whether guards were turned over because that makes no difference
@@ -78,6 +79,7 @@ class Search(Record):
     window_low: float
     window_high: float
     past_size: float
+    turned: int
     ahead: float
 
 

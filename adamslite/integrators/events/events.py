@@ -52,7 +52,9 @@ from adamslite.integrators.contract import Problem
 from adamslite.integrators.event_rows import CHANGES, CLOSEST, END, HIGH_ROW, HUGE, NONE
 from adamslite.integrators.events.dips import share_of_zone
 from adamslite.integrators.events.guards import (
+    CHATTER,
     HARMLESS,
+    MOST_CRAWLED,
     hold_watch,
     look_at_start,
     note_changes,
@@ -113,6 +115,7 @@ def change_here(P: Problem, L: Plan, t: float) -> bool:
     note_branches(P, L, t, HIGH_ROW)
     P.count.events += 1
     P.search.hunt = False
+    end_where_nothing_turns(P)
     if not accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd):
         turn_back(P)
         return False
@@ -120,6 +123,17 @@ def change_here(P: Problem, L: Plan, t: float) -> bool:
     sense(P)
     audit_from(P, t)
     return True
+
+
+@native
+def end_where_nothing_turns(P: Problem) -> None:
+    """End the run as CHATTERING after more changes at one time than all guards may have before
+    they are let go: what is looked for then changes no guard.
+    """
+    S = P.search
+    S.turned += 1
+    if S.turned > (CHATTER + 2.0) * (P.sizes.watched + 1):
+        S.freed, S.crawl = max(S.freed, 1), MOST_CRAWLED + 1
 
 
 @native
@@ -167,6 +181,7 @@ def pass_event(P: Problem, L: Plan, t: float) -> bool:
     change at a stop of an acceleration or of the rate of a state, against max(1, |u|) or
     max(1, |s|); at a crossing it is beyond all bounds.  False when the equations have no solution.
     """
+    P.search.turned = 0
     n, ns, S, old = P.sizes.n, P.sizes.ns, P.search, P.trial
     P.count.events += 1
     S.hunt, S.jump = False, 0.0

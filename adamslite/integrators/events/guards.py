@@ -187,6 +187,7 @@ def keep_margins(P: Problem) -> None:
     S, zones = P.search, P.sizes.zones
     if P.sizes.watched + zones == 0:
         return
+    S.turned = 0
     keep_closest(P)
     copy_margins(P, START, PAST)
     copy_margins(P, EARLY, PAST_RATE)
