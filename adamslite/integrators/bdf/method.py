@@ -54,8 +54,8 @@ from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins
 from adamslite.integrators.events.stops import (
     fitted,
     horizon,
-    least_step,
     longest_step,
+    round_off,
     set_pace,
     step_limit,
 )
@@ -154,7 +154,7 @@ def limit_step(P: Problem, C: Control) -> None:
         # Equal steps keep their history.
         if abs(fit - 1.0) > EQUAL_STEPS:
             resize(P, C, fit)
-    elif C.h * LONGER + least_step(P) > left:
+    elif C.h * LONGER + round_off(P, C.h) > left:
         resize(P, C, left / C.h)
     elif 2.0 * C.h > left and horizon(P) < P.settings.t_end:
         resize(P, C, 0.5 * left / C.h)

@@ -6,8 +6,8 @@ from adamslite.integrators.contract import Problem
 from adamslite.integrators.events.stops import (
     fitted,
     horizon,
-    least_step,
     longest_step,
+    round_off,
     set_pace,
     step_limit,
 )
@@ -38,7 +38,7 @@ def limit_step(P: Problem, C: Control) -> None:
     C.h = min(C.h, longest_step(P))
     if not P.settings.interpolate and C.fixed == 0.0:
         C.h = fitted(P, C.h, step_limit(P, C.row) - C.t)
-    elif C.h * LONGER + least_step(P) > left:
+    elif C.h * LONGER + round_off(P, C.h) > left:
         C.h = left
     elif C.fixed == 0.0 and 2.0 * C.h > left:
         C.h = 0.5 * left
