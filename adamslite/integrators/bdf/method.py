@@ -55,7 +55,6 @@ from adamslite.integrators.events.stops import (
     fitted,
     horizon,
     longest_step,
-    round_off,
     set_pace,
     step_limit,
 )
@@ -74,7 +73,7 @@ from adamslite.integrators.stepping.outcome import (
     note_try,
     passed_singularity,
 )
-from adamslite.integrators.stepping.step_size import LONGER, has_failed, too_small
+from adamslite.integrators.stepping.step_size import LONGER, has_failed, round_off, too_small
 from adamslite.native.translate import native, rare
 
 # Steps that differ by less than this share are equal.
@@ -150,11 +149,11 @@ def limit_step(P: Problem, C: Control) -> None:
         resize(P, C, longest / C.h)
     left = horizon(P) - C.t
     if not P.settings.interpolate and P.settings.fixed_step == 0.0:
-        fit = fitted(P, C.h, step_limit(P, C.row) - C.t) / C.h
+        fit = fitted(C.h, step_limit(P, C.row) - C.t, round_off(P, C)) / C.h
         # Equal steps keep their history.
         if abs(fit - 1.0) > EQUAL_STEPS:
             resize(P, C, fit)
-    elif C.h * LONGER + round_off(P, C.h) > left:
+    elif C.h * LONGER + round_off(P, C) > left:
         resize(P, C, left / C.h)
     elif 2.0 * C.h > left and horizon(P) < P.settings.t_end:
         resize(P, C, 0.5 * left / C.h)

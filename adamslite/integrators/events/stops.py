@@ -19,8 +19,6 @@ from adamslite.native.translate import native, rare
 LEAST_STEP = 1e-14
 # A pace of so many of these can be fitted to a stop: half of it is not too short.
 DIVISIBLE = 4.0
-# Of a step: what may be round-off of the time in it. A step that was given up has to get shorter.
-OF_STEP = 0.1
 # Further from an output time than this many steps they need not fit.
 MANY_STEPS = 100.0
 # What a number of steps may exceed a whole one by without one step more.
@@ -76,18 +74,12 @@ def step_limit(P: Problem, following: int) -> float:
 
 
 @native
-def fitted(P: Problem, h: float, left: float) -> float:
+def fitted(h: float, left: float, round_off: float) -> float:
     """The step not longer than ``h`` that reaches an output time ``left`` away in equal steps, but
-    for round-off of the time.
+    for ``round_off``.
     """
-    count = floor((left - round_off(P, h)) / h + 1.0 - WHOLE)
+    count = floor((left - round_off) / h + 1.0 - WHOLE)
     return left / max(1.0, count) if count < MANY_STEPS else h
-
-
-@native
-def round_off(P: Problem, h: float) -> float:
-    """By how much a step ``h`` may be extended to a stop that it all but reaches."""
-    return min(least_step(P), OF_STEP * h)
 
 
 @native

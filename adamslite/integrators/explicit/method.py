@@ -233,7 +233,7 @@ def limit_step(P: Problem, C: Control) -> None:
     C.h = min(C.h, longest_step(P))
     left = step_limit(P, C.row) - C.t
     if not P.settings.interpolate:
-        C.h = fitted(P, C.h, left)
+        C.h = fitted(C.h, left, 0.0 if C.cautious else least_step(P))
     if C.h * LONGER > left:
         C.h = left
 

@@ -7,13 +7,12 @@ from adamslite.integrators.events.stops import (
     fitted,
     horizon,
     longest_step,
-    round_off,
     set_pace,
     step_limit,
 )
 from adamslite.integrators.hht.control import Control
 from adamslite.integrators.implicit.step_size import step_ratio
-from adamslite.integrators.stepping.step_size import LONGER, cut
+from adamslite.integrators.stepping.step_size import LONGER, cut, round_off
 from adamslite.native.translate import native
 
 ORDER = 2
@@ -37,8 +36,8 @@ def limit_step(P: Problem, C: Control) -> None:
     left = horizon(P) - C.t
     C.h = min(C.h, longest_step(P))
     if not P.settings.interpolate and C.fixed == 0.0:
-        C.h = fitted(P, C.h, step_limit(P, C.row) - C.t)
-    elif C.h * LONGER + round_off(P, C.h) > left:
+        C.h = fitted(C.h, step_limit(P, C.row) - C.t, round_off(P, C))
+    elif C.h * LONGER + round_off(P, C) > left:
         C.h = left
     elif C.fixed == 0.0 and 2.0 * C.h > left:
         C.h = 0.5 * left

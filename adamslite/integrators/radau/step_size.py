@@ -5,11 +5,11 @@ from __future__ import annotations
 from math import floor
 
 from adamslite.integrators.contract import Problem
-from adamslite.integrators.events.stops import horizon, longest_step, round_off, set_pace
+from adamslite.integrators.events.stops import horizon, longest_step, set_pace
 from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.corrector import QUICK
 from adamslite.integrators.stepping.outcome import ALMOST
-from adamslite.integrators.stepping.step_size import cut
+from adamslite.integrators.stepping.step_size import cut, round_off
 from adamslite.native.translate import native
 
 # The next step aims at this share of the step that the error allows; it is changed only when it
@@ -37,7 +37,7 @@ def limit_step(P: Problem, C: Control) -> None:
     if P.search.hunt:
         C.h = min(C.h, left)
         return
-    C.to_target = floor((left - round_off(P, C.h)) / C.h + 1.0 - ALMOST)
+    C.to_target = floor((left - round_off(P, C)) / C.h + 1.0 - ALMOST)
     if C.to_target < MANY_STEPS:
         C.h = left / max(1.0, C.to_target)
 

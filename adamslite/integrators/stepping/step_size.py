@@ -34,6 +34,14 @@ def too_small(P: Problem, C: StepControl) -> bool:
 
 
 @native
+def round_off(P: Problem, C: StepControl) -> float:
+    """By how much a step may be extended to a stop that it all but reaches: one that was given up
+    has to get shorter.
+    """
+    return 0.0 if has_failed(C) else least_step(P)
+
+
+@native
 def has_failed(C: StepControl) -> bool:
     """Whether a try was given up since the last accepted step."""
     return C.retries > 0 or C.norm > 0.0
