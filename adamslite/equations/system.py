@@ -32,9 +32,8 @@ if TYPE_CHECKING:  # few runs need sparse matrices
 
     from adamslite.elements.sensor import Sensor
     from adamslite.equations.broken_motion import Break
-    from adamslite.integrators.audit_record import Audit
+    from adamslite.integrators.audit_record import Audit, Tape
     from adamslite.integrators.event_rows import Search
-    from adamslite.integrators.tape_record import Tape
     from adamslite.kernels.groups import Kernels
     from adamslite.language.statement import Statement
     from adamslite.model.model import NodeKey

@@ -1,8 +1,14 @@
-"""What an audit of energy keeps: the balance, and the step whose work is counted."""
+"""What audits keep: the balance of energy, the step whose work is counted, the tape of a run."""
 
 from __future__ import annotations
 
 from adamslite.native.translate import Ints, Reals, Record, array
+
+# The head of a row of the tape: time, size and order of the step that ends there, what it is,
+# restarts so far.
+TAPE_TIME, TAPE_STEP, TAPE_ORDER, TAPE_KIND, TAPE_RESTARTS, TAPE_HEAD = range(6)
+# What a row is: the start, the end of a step, the state behind an event.
+AT_START, AT_STEP, AT_EVENT = 0.0, 1.0, 2.0
 
 
 class EnergyBalance(Record):
@@ -83,3 +89,17 @@ class Audit(Record):
 
 
 POINTS, ROWS_OF_GUARDS = 10, 7
+
+
+class Tape(Record):
+    """Rows of ``width`` numbers: the head, the workspace, ``base`` (9 nb,) and the first ``kept``
+    numbers of the history; ``rows``: how many there are, ``full``: there was no room for more.
+
+    ``width`` 0: nothing is kept.
+    """
+
+    width: int
+    rows: int
+    kept: int
+    full: bool
+    data: Reals

@@ -66,9 +66,8 @@ pattern         per iteration whether it renews the Newton matrix, repeated; emp
 
 from __future__ import annotations
 
-from adamslite.integrators.audit_record import Audit
+from adamslite.integrators.audit_record import Audit, Tape
 from adamslite.integrators.event_rows import Search, SensorRow
-from adamslite.integrators.tape_record import Tape
 from adamslite.native.translate import Ints, Reals, Record, Rows
 
 # What the groups of kernels contribute, one bit each.
@@ -94,6 +93,9 @@ ACCELERATION = LOADS | REACTIONS | ACCELERATION_ROWS | ROWS
 
 # Coefficients of a Jacobian: of its derivatives by q, u, a, (lam, V) and s'.
 COEFFICIENTS = 5
+
+# Steps below this share of the run are round-off of the time.
+LEAST_STEP = 1e-14
 
 # The one pace of a run whose steps are not held back.
 NO_PACE = (-1e300, 1e300, 1e300)

@@ -33,6 +33,15 @@ import numpy as np
 
 from adamslite.equations.engine import address_of
 from adamslite.errors import UsageError
+from adamslite.integrators.audit_record import (
+    AT_STEP,
+    TAPE_HEAD,
+    TAPE_KIND,
+    TAPE_ORDER,
+    TAPE_RESTARTS,
+    TAPE_STEP,
+    TAPE_TIME,
+)
 from adamslite.integrators.bdf.history import ROWS
 from adamslite.integrators.contract import (
     ACCELERATION,
@@ -45,15 +54,6 @@ from adamslite.integrators.contract import (
 )
 from adamslite.integrators.projection import RATES
 from adamslite.integrators.stepping.output import WITHIN
-from adamslite.integrators.tape_record import (
-    AT_STEP,
-    TAPE_HEAD,
-    TAPE_KIND,
-    TAPE_ORDER,
-    TAPE_RESTARTS,
-    TAPE_STEP,
-    TAPE_TIME,
-)
 from adamslite.kernels.code.workspace import ACCELERATION as ACCELERATION_AT
 from adamslite.kernels.code.workspace import ALPHA, OMEGA
 from adamslite.sensitivity.adjoint_columns import Seed

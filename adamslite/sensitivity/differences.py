@@ -16,6 +16,15 @@ Reference: Caracotsios, Stewart, Comput. Chem. Eng. 9 (1985) 359 (staggered dire
 from __future__ import annotations
 
 from adamslite.integrators.accelerations import factor_accelerations
+from adamslite.integrators.audit_record import (
+    AT_STEP,
+    TAPE_HEAD,
+    TAPE_KIND,
+    TAPE_ORDER,
+    TAPE_RESTARTS,
+    TAPE_STEP,
+    TAPE_TIME,
+)
 from adamslite.integrators.bdf.dense_output import interpolate
 from adamslite.integrators.bdf.differences import change_step, extend_history, extrapolate, gamma
 from adamslite.integrators.bdf.state import tests_velocities
@@ -31,15 +40,6 @@ from adamslite.integrators.motion_equations import (
 )
 from adamslite.integrators.newton import add_mixed_product
 from adamslite.integrators.stepping.output import WITHIN
-from adamslite.integrators.tape_record import (
-    AT_STEP,
-    TAPE_HEAD,
-    TAPE_KIND,
-    TAPE_ORDER,
-    TAPE_RESTARTS,
-    TAPE_STEP,
-    TAPE_TIME,
-)
 from adamslite.kernels.code.workspace import OMEGA
 from adamslite.native.translate import Reals, copy, native
 from adamslite.sensitivity.begin import begin_history

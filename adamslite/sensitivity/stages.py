@@ -14,6 +14,13 @@ theta' = dw + w x theta.
 from __future__ import annotations
 
 from adamslite.integrators.accelerations import factor_accelerations
+from adamslite.integrators.audit_record import (
+    AT_STEP,
+    TAPE_HEAD,
+    TAPE_KIND,
+    TAPE_STEP,
+    TAPE_TIME,
+)
 from adamslite.integrators.contract import DONE, SINGULAR_MASS, Problem
 from adamslite.integrators.implicit.formulation import equations_kept, is_stabilised
 from adamslite.integrators.linalg.plan import HUGE, Plan
@@ -30,13 +37,6 @@ from adamslite.integrators.radau.stages import (
     stage_z,
 )
 from adamslite.integrators.stepping.output import WITHIN
-from adamslite.integrators.tape_record import (
-    AT_STEP,
-    TAPE_HEAD,
-    TAPE_KIND,
-    TAPE_STEP,
-    TAPE_TIME,
-)
 from adamslite.native.translate import Reals, copy, native
 from adamslite.sensitivity.contract import Forward, Tangents
 from adamslite.sensitivity.outputs import write_outputs

@@ -21,11 +21,11 @@ from adamslite.integrators.accelerations import (
     factor_accelerations,
     solve_accelerations,
 )
+from adamslite.integrators.audit_record import TAPE_HEAD, TAPE_TIME
 from adamslite.integrators.contract import POSITION_ROWS, Problem
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import PART
 from adamslite.integrators.projection import RATES
-from adamslite.integrators.tape_record import TAPE_HEAD, TAPE_TIME
 from adamslite.kernels.code.workspace import ACCELERATION, ALPHA
 from adamslite.native.translate import Reals, call_address, copy, native, rare, seldom
 from adamslite.sensitivity.contract import Forward, Tangents

@@ -15,11 +15,11 @@ from adamslite.analyses.planar_reduction import NOTHING, reduce_to_plane
 from adamslite.analyses.session import Session
 from adamslite.equations.engine import address_of
 from adamslite.errors import UsageError
+from adamslite.integrators.audit_record import TAPE_HEAD
 from adamslite.integrators.bdf.history import room
 from adamslite.integrators.contract import AUDIT, DONE
 from adamslite.integrators.linalg.plan import TINY
 from adamslite.integrators.radau.history import Y_ROWS
-from adamslite.integrators.tape_record import TAPE_HEAD
 from adamslite.results.outcomes import Outcome
 from adamslite.sensitivity.begin import ROWS
 from adamslite.sensitivity.contract import Forward

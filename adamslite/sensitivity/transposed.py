@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from adamslite.integrators.accelerations import acceleration_matrix
+from adamslite.integrators.audit_record import TAPE_HEAD, TAPE_STEP, TAPE_TIME
 from adamslite.integrators.contract import DONE, SINGULAR_MASS, Problem
 from adamslite.integrators.linalg.blocks import factor
 from adamslite.integrators.linalg.plan import Plan
@@ -10,7 +11,6 @@ from adamslite.integrators.linalg.transposed import solve_transposed
 from adamslite.integrators.motion_equations import jacobian, track
 from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.stages import put_stage
-from adamslite.integrators.tape_record import TAPE_HEAD, TAPE_STEP, TAPE_TIME
 from adamslite.native.translate import Reals, copy, native
 from adamslite.sensitivity.differences import matrix
 from adamslite.sensitivity.rates import take_state

@@ -16,8 +16,7 @@ import numpy as np
 
 from adamslite.analyses.clock.changes import NOISE, around_changes
 from adamslite.analyses.clock.clock import Clock
-from adamslite.integrators.contract import CLOCK
-from adamslite.integrators.events.stops import LEAST_STEP
+from adamslite.integrators.contract import CLOCK, LEAST_STEP
 from adamslite.symbolic.guards import FLOOR, STRICT
 
 if TYPE_CHECKING:

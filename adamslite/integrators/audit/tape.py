@@ -5,8 +5,7 @@ A run that goes back to an earlier state takes what it has passed since off the 
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import Problem
-from adamslite.integrators.tape_record import (
+from adamslite.integrators.audit_record import (
     AT_EVENT,
     AT_START,
     AT_STEP,
@@ -17,6 +16,7 @@ from adamslite.integrators.tape_record import (
     TAPE_STEP,
     TAPE_TIME,
 )
+from adamslite.integrators.contract import Problem
 from adamslite.native.translate import copy, native, seldom
 
 

@@ -10,13 +10,11 @@ from __future__ import annotations
 
 from math import floor
 
-from adamslite.integrators.contract import Problem
+from adamslite.integrators.contract import LEAST_STEP, Problem
 from adamslite.integrators.events.guards import branch_of
 from adamslite.integrators.motion_equations import CLOCK, guard_values, put_time
 from adamslite.native.translate import native, rare
 
-# Steps below this share of the run are round-off of the time.
-LEAST_STEP = 1e-14
 # A pace of so many of these can be fitted to a stop: half of it is not too short.
 DIVISIBLE = 4.0
 # Further from an output time than this many steps they need not fit.
