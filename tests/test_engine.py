@@ -29,7 +29,7 @@ for _entry in ENTRIES:
     import_module(_entry.rpartition(".")[0])
 # All of the package but what kernels call, and derivatives along a run, which have entries of their
 # own and are compared with differences.
-DERIVATIVES = f"{engine.HERE}sensitivity."
+DERIVATIVES = (f"{engine.HERE}sensitivity.", f"{engine.HERE}integrators.linalg.transposed")
 ENGINE = {
     name
     for name, code in REGISTERED.items()
