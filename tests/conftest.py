@@ -3,8 +3,8 @@ once, and the closed forms and decks of cables, which are modules in decks/cable
 
 Tests marked `slow` are left out unless they are asked for (``-m ""``, ``-m slow``, or by name); the
 others are the fast tier, in which no test may need more than ``MOST`` seconds of CPU.  Tests marked
-`numerical` may depend on how a processor rounds, and are run for several; the others read, check
-and write texts.
+`numerical` may depend on how a processor rounds, and are run for several; the others read, check,
+write texts, and end processes.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ TEXTUAL = {
     "test_accuracy_notes", "test_browser", "test_browser_plots", "test_bundle",
     "test_cable_messages", "test_chart", "test_commands", "test_compare",
     "test_deck", "test_lexical", "test_manual", "test_messages", "test_pages", "test_reference",
-    "test_results", "test_statement", "test_style", "test_graph_to_llvm",
+    "test_results", "test_statement", "test_style", "test_graph_to_llvm", "test_sweep_cluster",
 }  # fmt: skip
 
 
