@@ -69,7 +69,7 @@ def test_the_fewest_sections_that_do_are_taken(share: float, power: int, fewest:
     """An error of share/n^power, n doubled and halved: no half of what is taken would do."""
     found = with_trial(made_up(lambda n, error: share / n**power))
     n = found.deck.model.elements
-    assert fewest <= n <= 2 * fewest
+    assert fewest <= n <= 1.5 * fewest
     assert share / n**power < 0.01
     assert n == 1 or share / ((n + 1) // 2) ** power > 0.007
     assert found.off == pytest.approx(share / n**power, abs=0.002)
@@ -115,12 +115,14 @@ def test_where_nothing_settles_but_differences_fall_the_finest_is_taken() -> Non
         ((0.0, 4.0, 5.0), 1.25 / 3),
         ((0.0, 2.0, 6.0), 5 / 0.37),
         ((0.0, -4.0, -6.0), 2.5),
-        ((0.0, 4.0, 2.0), 2.0),
+        ((0.0, 4.0, 2.0), 2.5),
+        ((0.0, 4.0, 3.0), 1.25),
+        ((0.0, 4.0, -2.0), 7.5),
     ],
 )
 def test_what_the_finest_run_is_off(means: tuple[float, ...], off: float) -> None:
-    """1.25 d f/(1 - f) with f = 1/2, 1/4; as of a front, 1/0.37, where differences grow; what the
-    last two span where they change their sign."""
+    """1.25 d f/(1 - f) with f = 1/2, 1/4; as of a front, 1/0.37, where differences grow; 1.25
+    of the last difference where they change their sign."""
     key = ("tension", 1, 0)
     runs = [Readings({key: (np.full(3, mean), 1.0)}) for mean in means]
     assert doubts_of(runs, ("tension",))[key] == pytest.approx(np.full(3, off), rel=1e-12)

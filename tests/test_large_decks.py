@@ -18,7 +18,7 @@ import adamslite as al
 from adamslite.kernels.groups import compact
 from adamslite.language.diagnostics import MergedSpans, Source, Spans
 
-MASSES = 1500
+MASSES = 1000
 READ, READING, BOUND = 1250, 2250, 300
 """Bytes per statement at most: of a deck, while it is read, and of its kernels."""
 

@@ -12,6 +12,10 @@ prescribe, u_P, has the static shape G = -K_FF^-1 K_FP, and w = u_F - G u_P vibr
 
 which are solved exactly for forces that are linear between instants. A rigid cable without mass
 has the elongation -d in every span instead, and its tensions are what keeps it.
+
+Modes come from the singular values of F L^-T, where K = F' F and M = L L': the rates w themselves
+and not their squares. Round-off is a share of the largest rate, that of waves in a short section,
+and would drown what swings slowly, or only drifts, if it were one of its square.
 """
 
 from __future__ import annotations
@@ -30,6 +34,8 @@ SLOW = 1e-4
 # Of critical damping: beyond it a mode creeps, as it does here.
 CREEPS = 0.99
 ROUND_OFF = 1e-9
+# Of the largest rate: what is slower has no stiffness.
+LIMP = 1e-12
 # Radians in the time of a wave along the cable from which a mode is one of waves.
 WAVE = 1.2
 # Radians in a step from which a mode is too fast for the instants.
@@ -171,10 +177,15 @@ class Sections:
                     self.mass[i, j] += mass * c * d
 
     @cached_property
-    def stiffness(self) -> np.ndarray:
-        """K of all coordinates."""
-        found: np.ndarray = self.b.T @ (self.k[:, None] * self.b) + self.across
-        return found
+    def factor(self) -> np.ndarray:
+        """F of K = F' F, in as many rows as coordinates at least."""
+        rows = [np.sqrt(np.maximum(self.k, 0.0))[:, None] * self.b]
+        for coordinates, rigidity in self.of.across:
+            squares, ways = np.linalg.eigh(rigidity)
+            rows.append(np.zeros((len(squares), self.size)))
+            rows[-1][:, coordinates] = np.sqrt(np.maximum(squares, 0.0))[:, None] * ways.T
+        rows.append(np.zeros((max(self.size - sum(map(len, rows)), 0), self.size)))
+        return np.concatenate(rows)
 
     def along(self, terms: Terms, ways: np.ndarray) -> np.ndarray:
         """The displacement of a half section at an end of a span, of coordinates in columns."""
@@ -237,20 +248,17 @@ def _loads(of: Network, at: Sections) -> np.ndarray:
 def _elastic(
     of: Network, at: Sections, ways: np.ndarray, extra: np.ndarray | None, window: float
 ) -> Motion:
-    free, given, k = at.free, at.given, at.stiffness
+    free, given = at.free, at.given
     loads = _loads(of, at)
     if extra is not None:
         loads = loads - extra @ (at.k[:, None] * at.b)
-    if len(given):
-        shape = -np.linalg.pinv(k[np.ix_(free, free)], hermitian=True) @ k[np.ix_(free, given)]
-    else:
-        shape = np.zeros((len(free), 0))
+    modes = _modes(of, at)
+    shape = -modes.held @ at.factor[:, given]
     starts, rates = _rates(ways, of.step)
     pushed = at.mass[np.ix_(free, free)] @ shape + at.mass[np.ix_(free, given)]
     forces = loads[:, free] - rates @ pushed.T
     speeds = np.zeros(at.size)
     speeds[: len(of.speeds)] = of.speeds
-    modes = _Modes(of, at, free)
     w, fast, swings = modes.run(forces, speeds[free] - shape @ starts, window)
     moved, fastness = np.zeros((len(w), at.size)), np.zeros((len(w), at.size))
     moved[:, free], moved[:, given] = w + ways @ shape.T, ways
@@ -267,19 +275,30 @@ def _elastic(
     )  # fmt: skip
 
 
-class _Modes:
-    """Modes of what is free."""
+def _modes(of: Network, at: Sections) -> _Modes:
+    """Of what is free."""
+    free = at.free
+    lower = np.linalg.inv(np.linalg.cholesky(at.mass[np.ix_(free, free)]))
+    columns, rates, shapes = np.linalg.svd(at.factor[:, free] @ lower.T, full_matrices=False)
+    modes = _Modes(of, lower.T @ shapes.T, at.mass[np.ix_(free, free)], rates)
+    still = rates > LIMP * rates.max(initial=0.0)
+    modes.held = (modes.shapes[:, still] / rates[still]) @ columns[:, still].T
+    damped = (at.b[:, free] @ modes.shapes) ** 2
+    modes.damping = np.minimum(of.damper * damped.sum(axis=0) / (2 * modes.rates), CREEPS)
+    return modes
 
-    def __init__(self, of: Network, at: Sections, free: np.ndarray) -> None:
-        inner = np.ix_(free, free)
-        lower = np.linalg.inv(np.linalg.cholesky(at.mass[inner]))
-        squares, shapes = np.linalg.eigh(lower @ at.stiffness[inner] @ lower.T)
-        self.shapes = lower.T @ shapes
-        self.mass = at.mass[inner]
-        self.rates = np.sqrt(np.maximum(squares, (SLOW / of.end) ** 2))
-        damped = (at.b[:, free] @ self.shapes) ** 2
-        share = of.damper * damped.sum(axis=0) / (2 * self.rates)
-        self.damping = np.minimum(share, CREEPS)
+
+class _Modes:
+    """Modes by their rates: `shapes` in columns, of unit modal mass; `held` F times which is what
+    keeps all of them at rest."""
+
+    def __init__(
+        self, of: Network, shapes: np.ndarray, mass: np.ndarray, rates: np.ndarray
+    ) -> None:
+        self.shapes, self.mass = shapes, mass
+        self.rates = np.maximum(rates, SLOW / of.end)
+        self.damping = np.zeros(len(rates))
+        self.held = np.zeros((len(shapes), 0))
         self.step, self.transit = of.step, of.transit
 
     def run(
@@ -358,7 +377,7 @@ def _rigid(of: Network, at: Sections, ways: np.ndarray, extra: np.ndarray | None
     speeds[: len(of.speeds)] = of.speeds
     found, fast = base, rates
     if kept.shape[1]:
-        small = Reduced(kept.T @ mass @ kept, kept.T @ across @ kept, of)
+        small = _reduced(of, kept.T @ mass @ kept, kept.T @ across @ kept)
         start = np.linalg.solve(small.mass, kept.T @ mass @ speeds[free])
         z, zz, _ = small.run(pushed @ kept, start, 0.0)
         found, fast = base + z @ kept.T, rates + zz @ kept.T
@@ -373,16 +392,11 @@ def _rigid(of: Network, at: Sections, ways: np.ndarray, extra: np.ndarray | None
     )  # fmt: skip
 
 
-class Reduced(_Modes):
+def _reduced(of: Network, mass: np.ndarray, stiffness: np.ndarray) -> _Modes:
     """Modes of given matrices without damping."""
-
-    def __init__(self, mass: np.ndarray, stiffness: np.ndarray, of: Network) -> None:
-        lower = np.linalg.inv(np.linalg.cholesky(mass))
-        squares, shapes = np.linalg.eigh(lower @ stiffness @ lower.T)
-        self.shapes, self.mass = lower.T @ shapes, mass
-        self.rates = np.sqrt(np.maximum(squares, (SLOW / of.end) ** 2))
-        self.damping = np.zeros(len(squares))
-        self.step, self.transit = of.step, of.transit
+    lower = np.linalg.inv(np.linalg.cholesky(mass))
+    squares, shapes = np.linalg.eigh(lower @ stiffness @ lower.T)
+    return _Modes(of, lower.T @ shapes, mass, np.sqrt(np.maximum(squares, 0.0)))
 
 
 def _null(b: np.ndarray) -> np.ndarray:

@@ -148,8 +148,8 @@ def doubts_of(finer: Sequence[Readings], asked: tuple[str, ...]) -> dict[Key, np
     With d the last difference and f what it is of the one before, it is d f/(1 - f) where
     differences fall with one sign, with some safety: those of fronts fall more slowly. Where they
     do not fall yet they are taken to fall as slowly as those of fronts from here on. Where they
-    change their sign the truth lies within what the last three models span; of two models the
-    difference is taken.
+    change their sign the truth lies between the last two models, which is said with some safety;
+    of two models the difference is taken.
     """
     truth, found = finer[-1], {}
     for key in _asked(truth, asked):
@@ -162,9 +162,8 @@ def doubts_of(finer: Sequence[Readings], asked: tuple[str, ...]) -> dict[Key, np
             before = _difference(key, finer[-2], finer[-3], truth)
             share = last / np.where(before == 0, NOTHING, before)
             next_one = np.abs(last) * np.clip(share, FASTEST, LARGEST)
-            span = np.maximum(np.abs(last), np.abs(last + before))
             rest = SAFETY * next_one / (1 - np.clip(share, FASTEST, SLOWEST))
-            found[key] = np.where(share > 0, rest, span)
+            found[key] = np.where(share > 0, rest, SAFETY * np.abs(last))
     return found
 
 

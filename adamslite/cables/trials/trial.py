@@ -3,12 +3,13 @@
 The linear model proposes; what it leaves out (slack, slip, large angles, heavy ropes that whip)
 only runs show. The last rung of a ladder of models stands for the cable, less what it is off
 itself. From the first rung that is good enough the way goes down, as long as half the sections,
-ten times the ERROR or the next lower level are good enough and cheaper.
+ten times the ERROR, the next lower level or, at last, the sections between these and half of them
+are good enough and cheaper.
 """
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from math import inf
+from math import inf, sqrt
 
 from adamslite.cables.deck.scene import Setting, Written, written
 from adamslite.cables.description.vocabulary import MOST_SECTIONS
@@ -19,6 +20,8 @@ from adamslite.cables.trials.trial_runs import ROOM, Option, Runs, Solver, Tried
 
 # How much cheaper a model has to be that is less accurate.
 WORTH = 1.2
+# Sections between those of two rungs, as a share of the upper one's.
+BETWEEN = 1 / sqrt(2)
 # ERROR of the next cheaper model, in the order 1, 2, 5, 10 ...
 LOOSER = 3
 # Of the accuracy: a rigid cable that the linear model has further off is not tried.
@@ -137,16 +140,21 @@ class _Choice:
         return one if self._does(one) and worth * one.work <= than.work else None
 
     def _lesser(self, of: Tried) -> Iterator[Option]:
-        """A lower level, half the sections, ten times the ERROR, the simpler form."""
+        """A lower level, half the sections, ten times the ERROR, the simpler form, and the sections
+        between these and half of them."""
         spec, option = self.trial.of.spec, of.option
+        has_fewer = option.level > 1 and option.elements > 1 and "arrival" not in spec.quantities
         if not spec.level and option.level > 1 and self._may_be_rigid():
             yield Option(1, "auto", 0, 0.0)
-        if option.level > 1 and option.elements > 1 and "arrival" not in spec.quantities:
+        if has_fewer:
             yield replace(option, elements=(option.elements + 1) // 2)
         if not spec.error:
             yield replace(option, error=advice.notched(option.error, LOOSER))
         if option.form == "ale" and spec.form == "auto":
             yield replace(option, form="paper")
+        if has_fewer:
+            half = (option.elements + 1) // 2
+            yield replace(option, elements=max(int(BETWEEN * option.elements), half + 1))
 
     def _may_be_rigid(self) -> bool:
         p = self.trial.of.spec.accuracy
