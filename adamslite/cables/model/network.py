@@ -27,21 +27,12 @@ from math import sqrt
 
 import numpy as np
 
+from adamslite.cables.model.modes import CREEPS, ROUND_OFF, SLOW, Modes, Times
+
 #: Coordinates of a displacement, with their shares.
 Terms = tuple[tuple[int, float], ...]
-# A mode at rest, in periods within the run: drifts like one without stiffness.
-SLOW = 1e-4
-# Of critical damping: beyond it a mode creeps, as it does here.
-CREEPS = 0.99
-ROUND_OFF = 1e-9
 # Of the largest rate: what is slower has no stiffness.
 LIMP = 1e-12
-# Radians in the time of a wave along the cable from which a mode is one of waves.
-WAVE = 1.2
-# Radians in a step from which a mode is too fast for the instants.
-FAST = 0.8
-# Of a step in a mode's own time: series are as good as what they stand for.
-SHORT = 1e-3
 
 
 @dataclass(frozen=True)
@@ -94,6 +85,11 @@ class Network:
     def step(self) -> float:
         """Between instants."""
         return self.end / self.instants
+
+    @property
+    def times(self) -> Times:
+        """What its modes need of them."""
+        return Times(self.end, self.step, self.transit)
 
 
 @dataclass(frozen=True)
@@ -275,72 +271,17 @@ def _elastic(
     )  # fmt: skip
 
 
-def _modes(of: Network, at: Sections) -> _Modes:
+def _modes(of: Network, at: Sections) -> Modes:
     """Of what is free."""
     free = at.free
     lower = np.linalg.inv(np.linalg.cholesky(at.mass[np.ix_(free, free)]))
     columns, rates, shapes = np.linalg.svd(at.factor[:, free] @ lower.T, full_matrices=False)
-    modes = _Modes(of, lower.T @ shapes.T, at.mass[np.ix_(free, free)], rates)
+    modes = Modes(of.times, lower.T @ shapes.T, at.mass[np.ix_(free, free)], rates)
     still = rates > LIMP * rates.max(initial=0.0)
     modes.held = (modes.shapes[:, still] / rates[still]) @ columns[:, still].T
     damped = (at.b[:, free] @ modes.shapes) ** 2
     modes.damping = np.minimum(of.damper * damped.sum(axis=0) / (2 * modes.rates), CREEPS)
     return modes
-
-
-class _Modes:
-    """Modes by their rates: `shapes` in columns, of unit modal mass; `held` F times which is what
-    keeps all of them at rest."""
-
-    def __init__(
-        self, of: Network, shapes: np.ndarray, mass: np.ndarray, rates: np.ndarray
-    ) -> None:
-        self.shapes, self.mass = shapes, mass
-        self.rates = np.maximum(rates, SLOW / of.end)
-        self.damping = np.zeros(len(rates))
-        self.held = np.zeros((len(shapes), 0))
-        self.step, self.transit = of.step, of.transit
-
-    def run(
-        self, forces: np.ndarray, speeds: np.ndarray, window: float
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Ways and accelerations from rest, with `speeds` at the start, and the amplitudes of modes
-        that are too fast for the instants: their ways and accelerations are those at rest.
-        """
-        w, z = self.rates, self.damping
-        pole = -z * w + 1j * w * np.sqrt(1 - z**2)
-        p = forces @ self.shapes
-        rest = p / w**2
-        grown = np.exp(pole * self.step)
-        steady, ramp = _gains(pole * self.step)
-        gains = self.step * (p[:-1] * steady + (p[1:] - p[:-1]) * ramp)
-        state = np.empty((len(p), len(w)), dtype=complex)
-        state[0] = self.shapes.T @ self.mass @ speeds
-        for i in range(len(p) - 1):
-            state[i + 1] = grown * state[i] + gains[i]
-        q = state.imag / pole.imag
-        v = state.real - z * w * q
-        seen = np.sinc(w * window / (2 * np.pi))
-        # What is slow is seen as it is, what vibrates through the window. What is too fast for the
-        # instants keeps the swing of its start: forces are smooth against it.
-        swing = q - rest
-        fast = w * self.step > FAST
-        times = self.step * np.arange(len(p))[:, None]
-        began = np.hypot(rest[0], v[0] / w) * np.exp(-times * (z * w))
-        self.swings = np.where(fast, began, np.hypot(swing, v / w))
-        self.largest = np.where(w * self.transit > WAVE, self.swings.max(axis=0), 0.0)
-        amplitudes = np.where(fast, np.abs(seen) * began, 0.0)
-        seen = np.where(fast, 0.0, seen)
-        q = np.where(w * window < ROUND_OFF, q, rest + seen * swing)
-        rates = -(w**2) * seen * swing - 2 * z * w * seen * v
-        return q @ self.shapes.T, rates @ self.shapes.T, amplitudes
-
-
-def _gains(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """(e^x - 1)/x and (e^x - 1 - x)/x^2: of a force, and of one that grows over a step."""
-    first = np.expm1(x) / x
-    series = 0.5 + x / 6 + x**2 / 24
-    return first, np.where(np.abs(x) < SHORT, series, (first - 1) / x)
 
 
 def _at_ends(at: Sections, pulls: np.ndarray, fast: np.ndarray, rests: bool = True) -> np.ndarray:
@@ -392,11 +333,11 @@ def _rigid(of: Network, at: Sections, ways: np.ndarray, extra: np.ndarray | None
     )  # fmt: skip
 
 
-def _reduced(of: Network, mass: np.ndarray, stiffness: np.ndarray) -> _Modes:
+def _reduced(of: Network, mass: np.ndarray, stiffness: np.ndarray) -> Modes:
     """Modes of given matrices without damping."""
     lower = np.linalg.inv(np.linalg.cholesky(mass))
     squares, shapes = np.linalg.eigh(lower @ stiffness @ lower.T)
-    return _Modes(of, lower.T @ shapes, mass, np.sqrt(np.maximum(squares, 0.0)))
+    return Modes(of.times, lower.T @ shapes, mass, np.sqrt(np.maximum(squares, 0.0)))
 
 
 def _null(b: np.ndarray) -> np.ndarray:
