@@ -93,6 +93,14 @@ def add_run_flags(parser: argparse.ArgumentParser) -> None:
         "--confirm", action="store_true", default=None,
         help="run again with a smaller ERROR and with another method; report how many digits agree",
     )  # fmt: skip
+    limits = parser.add_argument_group(
+        "limits", "a run that reaches one ends, and keeps what it has"
+    )
+    limits.add_argument("--cpu-limit", type=positive, metavar="S", help="CPU of the run in seconds")
+    limits.add_argument(
+        "--max-steps", type=count, metavar="N",
+        help="steps of integration; without, a run ends after 10000 steps below 1e-10 of it",
+    )  # fmt: skip
 
 
 def run_options(args: argparse.Namespace) -> dict[str, Any]:
@@ -107,6 +115,8 @@ def run_options(args: argparse.Namespace) -> dict[str, Any]:
         "no_reduction",
         "audit",
         "confirm",
+        "cpu_limit",
+        "max_steps",
     )
     return {name: getattr(args, name) for name in names if getattr(args, name) is not None}
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from adamslite.analyses.budget import Budget
 from adamslite.analyses.clock.clock import Clock
 from adamslite.analyses.clock.motion_jumps import first_jump
 from adamslite.analyses.clock.step_limits import timetable
@@ -41,7 +42,7 @@ JUDGED, LATER = 1_000, 2
 # up to 6 or so; where accuracy limits steps they are shorter than a decay.
 HELD_DOWN = 2.0
 # How a run may end before a motion that jumps, or gets ever faster.
-CLOSE = (Outcome.DONE, Outcome.STEP_TOO_SMALL, Outcome.NEWTON_FAILED)
+CLOSE = (Outcome.DONE, Outcome.STEP_TOO_SMALL, Outcome.NEWTON_FAILED, Outcome.CREEPING)
 # Error estimates from here on stand for not-a-number.
 OVERFLOW = 1e300
 # CORRECTOR options that ask for convergence of multipliers too.
@@ -55,6 +56,8 @@ OUTCOMES = {
     contract.INTERRUPTED: Outcome.INTERRUPTED,
     contract.UNSTABLE: Outcome.UNSTABLE,
     contract.CHATTERING: Outcome.CHATTERING,
+    contract.STEP_LIMIT: Outcome.STEP_LIMIT,
+    contract.CREEPING: Outcome.CREEPING,
 }
 
 
@@ -147,10 +150,11 @@ def run_dynamic(
     settings: Settings,
     progress: Progress | None,
     audited: bool = False,
+    budget: Budget | None = None,
 ) -> Outcome:
     """Integrate over ``times`` (nt,) and fill ``system.record``, see :func:`make_ready`."""
     make_ready(system, times, apart, settings, audited)
-    return integrate(system, settings, progress)
+    return integrate(system, settings, progress, budget=budget)
 
 
 def make_ready(
@@ -189,21 +193,30 @@ def make_ready(
 
 
 def integrate(
-    system: System, settings: Settings, progress: Progress | None, judged: bool = False
+    system: System,
+    settings: Settings,
+    progress: Progress | None,
+    judged: bool = False,
+    budget: Budget | None = None,
 ) -> Outcome:
     """Run what was made ready; how it ended.
 
     ``judged``: a method that pauses ends with STEP_TOO_SMALL when a decay holds its steps down.
     """
+    budget = budget or Budget()
+    budget.lend(system)
     run = system.settings
     start, end, hmax = float(run.t), float(run.t_end), float(run.h_max)
-    code = _watched(system, settings.formula, progress, start, end, judged)
+    code = _watched(system, settings.formula, progress, start, end, judged, budget)
+    budget.settle(system)
     system.release_guards()
     if code == contract.PAUSED:
         return Outcome.STEP_TOO_SMALL
     if system.search.loose:
         require_none(system, EQUAL)
     outcome = _named(system, code)
+    if outcome is Outcome.INTERRUPTED and budget.out_of_time:
+        return Outcome.CPU_LIMIT
     if system.broken and outcome in CLOSE:
         near = system.report.t >= system.broken.time - hmax
         return Outcome.BROKEN_MOTION if near else outcome
@@ -304,10 +317,12 @@ def _watched(
     start: float,
     end: float,
     judged: bool,
+    budget: Budget,
 ) -> int:
     """Run; what is not over soon in a thread of its own, with a look at it from time to time."""
     code = _first_tries(system, method, judged)
-    if code == contract.PAUSED and progress is None and not _is_interrupted_here():
+    unseen = progress is None and budget.cpu is None and not _is_interrupted_here()
+    if code == contract.PAUSED and unseen:
         return _resumed(system, method, judged)
     if code != contract.PAUSED and not (progress and progress.is_due()):
         return code
@@ -317,7 +332,9 @@ def _watched(
         while running.works:
             try:
                 running.wait(WATCH_INTERVAL)
-                if progress and running.works:
+                if budget.out_of_time:
+                    system.settings.stop = True
+                elif progress and running.works:
                     progress.watch(look())
             except KeyboardInterrupt:
                 system.settings.stop = True

@@ -240,6 +240,15 @@ def _unstable(system: System) -> str:
     return f"{_when(system)}; stable are steps up to {Control(system.control).limit:.3g}"
 
 
+def _overspent(system: System) -> str:
+    """Where the run was when its budget was spent, and what held its steps."""
+    # Few runs have one.
+    from adamslite.analyses.held_steps import what_holds
+
+    reason = what_holds(system) if system.report.h else ""
+    return _when(system) + (f", held by {reason}" if reason else "")
+
+
 def _not_kinematic(system: System) -> str:
     ways = "one degree" if system.dof == 1 else f"{system.dof} degrees"
     return f"{_where(system)}, the model has {ways} of freedom"
@@ -256,6 +265,9 @@ REASONS = {
     Outcome.UNSTABLE: _unstable,
     Outcome.BROKEN_MOTION: _broken_motion,
     Outcome.TORN: _torn,
+    Outcome.CREEPING: _overspent,
+    Outcome.STEP_LIMIT: _overspent,
+    Outcome.CPU_LIMIT: _overspent,
     Outcome.NOT_KINEMATIC: _not_kinematic,
     Outcome.INITIAL_CONDITIONS_FAILED: _where,
 }

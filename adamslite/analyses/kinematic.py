@@ -20,6 +20,7 @@ from adamslite.integrators.contract import ACCELERATIONS, RECORD
 from adamslite.results.outcomes import Outcome
 
 if TYPE_CHECKING:
+    from adamslite.analyses.budget import Budget
     from adamslite.analyses.initial.conditions import Unclosed
     from adamslite.equations.system import System
 
@@ -28,12 +29,33 @@ if TYPE_CHECKING:
 MOST_TURNED = 1.5
 
 
-def run_kinematic(system: System, times: np.ndarray) -> tuple[Outcome, Unclosed | None]:
+def run_kinematic(
+    system: System, times: np.ndarray, budget: Budget
+) -> tuple[Outcome, Unclosed | None]:
     """Solve at each of ``times`` (nt,) and fill ``system.record``."""
     system.start_record(times)
+    try:
+        return _in_turn(system, times, budget)
+    except KeyboardInterrupt:
+        return Outcome.INTERRUPTED, None
+    finally:
+        _drop_unfinished(system, times)
+        budget.settle(system)
+
+
+def _drop_unfinished(system: System, times: np.ndarray) -> None:
+    """Leave out a last record of a time on the way to an output time."""
+    last = int(system.count.records) - 1
+    if last >= 0 and system.record[last * (system.nw + system.sizes.n_out)] != times[last]:
+        system.count.records = last
+
+
+def _in_turn(system: System, times: np.ndarray, budget: Budget) -> tuple[Outcome, Unclosed | None]:
     at = float(times[0])
     for row, time in enumerate(times):
         while True:
+            if over := budget.spent(int(system.count.steps)):
+                return over, None
             at = _next_time(system, at, float(time))
             unclosed = _solve(system, at)
             if unclosed:

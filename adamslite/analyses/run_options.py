@@ -11,12 +11,13 @@ from adamslite.elements.integrator import Integrator
 from adamslite.errors import UsageError
 from adamslite.language.likeness import did_you_mean
 
-POSITIVE = ("end", "error", "hmax")
+POSITIVE = ("end", "error", "hmax", "cpu_limit")
+WHOLE = ("steps", "max_steps")
 FORMULATIONS = ("I3", "SI2")
 
 
 def checked(options: Mapping[str, Any]) -> dict[str, Any]:
-    """Those of ``end steps integrator formulation error hmax`` that are given.
+    """Those of ``end steps integrator formulation error hmax cpu_limit max_steps`` that are given.
 
     Raises
     ------
@@ -27,8 +28,9 @@ def checked(options: Mapping[str, Any]) -> dict[str, Any]:
     for name in POSITIVE:
         if name in given:
             given[name] = _positive(name, given[name])
-    if "steps" in given:
-        given["steps"] = _count(given["steps"])
+    for name in WHOLE:
+        if name in given:
+            given[name] = _count(name, given[name])
     names = {
         "integrator": Integrator.arguments["method"].supported,
         "formulation": FORMULATIONS,
@@ -42,14 +44,19 @@ def checked(options: Mapping[str, Any]) -> dict[str, Any]:
 def _positive(name: str, value: object) -> float:
     number = float(value) if isinstance(value, Real) else nan
     if not 0.0 < number < inf:
-        raise UsageError(f"--{name} {value}: it must be a positive number")
+        raise UsageError(f"{_flag(name)} {value}: it must be a positive number")
     return number
 
 
-def _count(value: object) -> int:
+def _flag(name: str) -> str:
+    """An option as the command line has it."""
+    return f"--{name.replace('_', '-')}"
+
+
+def _count(name: str, value: object) -> int:
     whole = isinstance(value, Integral) or (isinstance(value, float) and value.is_integer())
     if not whole or not isinstance(value, Integral | float) or value < 1:
-        raise UsageError(f"--steps {value}: it must be a whole number, at least 1")
+        raise UsageError(f"{_flag(name)} {value}: it must be a whole number, at least 1")
     return int(value)
 
 

@@ -54,6 +54,8 @@ if TYPE_CHECKING:
 
 # Outcomes after which the rank of the constraints is computed again.
 STALLED = (Outcome.NEWTON_FAILED, Outcome.STEP_TOO_SMALL)
+# Outcomes after which nothing else is tried.
+OVERSPENT = (Outcome.INTERRUPTED, Outcome.CPU_LIMIT, Outcome.STEP_LIMIT, Outcome.CREEPING)
 
 
 class Session(SessionState):
@@ -64,16 +66,27 @@ class Session(SessionState):
         for command in commands:
             if command.keyword == "STOP" or self.outcome is not Outcome.DONE:
                 return
-            self._keep_senvals()
-            action = getattr(self, f"_do_{command.keyword.lower()}", None)
-            if action is not None:
-                action(command)
-            elif changes_the_model(command, self.deck):
-                self.change(self.deck.after(command))
-                if isinstance(command, Redefinition):
-                    self.changes += (command,)
+            before = self.kernels, self.present
+            try:
+                self._carry_out(command)
+            except KeyboardInterrupt:
+                if not self.history.pieces:
+                    raise
+                # What is half done, as a model that is being changed, is not reported on.
+                self.kernels, self.present = before
+                self.outcome = Outcome.INTERRUPTED
             if self.deck.user.failed:
                 self.outcome = Outcome.ROUTINE_FAILED
+
+    def _carry_out(self, command: Command) -> None:
+        self._keep_senvals()
+        action = getattr(self, f"_do_{command.keyword.lower()}", None)
+        if action is not None:
+            action(command)
+        elif changes_the_model(command, self.deck):
+            self.change(self.deck.after(command))
+            if isinstance(command, Redefinition):
+                self.changes += (command,)
 
     # settings
 
@@ -98,6 +111,9 @@ class Session(SessionState):
     def _do_simulate(self, command: Simulate) -> None:
         self.system.elimination.unfold()
         self.system.settings.t = self.time
+        self.outcome = self.budget.spent() or self.outcome
+        if self.outcome is not Outcome.DONE:
+            return
         times = output_times(command, self.time)
         kind = command.kind
         if kind == "TRANSIENT":
@@ -124,6 +140,7 @@ class Session(SessionState):
             if self.unclosed:
                 self.outcome = Outcome.INITIAL_CONDITIONS_FAILED
                 return
+        self.budget.begin(float(times[-1] - times[0]))
         self._take(choose_method(system, times, self.settings))
         if self.progress:
             start, end = float(times[0]), float(times[-1])
@@ -159,7 +176,10 @@ class Session(SessionState):
             self.keep(system, *self._sensed(system, span, kept, apart))
             if not self.deck.delays:  # which look into it
                 system.record = np.zeros(1)
-            if self.outcome is Outcome.INTERRUPTED:
+            if self.outcome is Outcome.DONE and self.time < times[-1]:
+                # The spans of a delay may be too short to be looked at.
+                self.outcome = self.budget.spent() or self.outcome
+            if self.outcome in OVERSPENT:
                 return
             if self.outcome in STALLED and self._rank_changed(system):
                 self._continue(system, span, kept, apart)
@@ -185,8 +205,9 @@ class Session(SessionState):
         drawn_up = len(self.balances)
         self.sensors.arm(self.system)
         outcome = self._integrated(self.system, times, apart)
-        if beginning is None or outcome not in STALLED:
+        if beginning is None or outcome not in (*STALLED, Outcome.CREEPING):
             return outcome
+        self.budget.crept = 0
         beginning.return_to()
         del self.balances[drawn_up:]
         self._take(self.chosen.other)
@@ -205,7 +226,7 @@ class Session(SessionState):
             make_ready(system, times, apart, settings, self.audited)
             if self.first_step is None and not self.history.pieces:
                 self.first_step, self.late_setup = clock.process_time(), 0.0
-            return integrate(system, settings, self.whole, bool(self.chosen.instead))
+            return integrate(system, settings, self.whole, bool(self.chosen.instead), self.budget)
 
         outcome = run() if "plane" in self.without else in_its_plane(system, run)
         self._note_balance(system)
@@ -233,7 +254,9 @@ class Session(SessionState):
         later = times > self.time
         self.outcome = Outcome.DONE
         rest, settings = np.append(self.time, times[later]), self.chosen.settings
-        self.outcome = run_dynamic(system, rest, apart, settings, self.whole, self.audited)
+        self.outcome = run_dynamic(
+            system, rest, apart, settings, self.whole, self.audited, self.budget
+        )
         self._note_balance(system)
         self.keep(system, *self._sensed(system, rest, np.append(False, wanted[later]), apart))
 
@@ -255,6 +278,7 @@ class Session(SessionState):
             require_no_delay(self.kernels, "STATICS at several times", NO_PAST)
         self.delays.hold(self.kernels, self.time)
         for time in times if len(times) > 1 else [self.time]:
+            self.outcome = self.budget.spent() or self.outcome
             if self.outcome is not Outcome.DONE:
                 return
             system.settings.t = time
@@ -275,7 +299,7 @@ class Session(SessionState):
             return
         from adamslite.analyses.kinematic import run_kinematic
 
-        self.outcome, self.unclosed = run_kinematic(system, times)
+        self.outcome, self.unclosed = run_kinematic(system, times, self.budget)
         self.time = float(system.report.t)
         self.keep(system, times, False)
 

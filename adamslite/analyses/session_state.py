@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from adamslite.analyses.apart import Apart
+from adamslite.analyses.budget import Budget
 from adamslite.analyses.clock.clock import Clock
 from adamslite.analyses.clock.motion_jumps import without_value
 from adamslite.analyses.delays import Delays
@@ -88,8 +89,10 @@ class SessionState:
         without: frozenset[str] = frozenset(),
         audited: bool = False,
         files: SavedFiles | None = None,
+        budget: Budget | None = None,
     ) -> None:
         self.progress = progress
+        self.budget = budget or Budget()
         self.flags = flags
         self.audited = audited
         deck_of(scene).user.start()

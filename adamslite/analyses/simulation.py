@@ -14,6 +14,7 @@ import numpy as np
 
 from adamslite.analyses.accuracy_notes import accuracy_notes
 from adamslite.analyses.buckling import buckled
+from adamslite.analyses.budget import Budget
 from adamslite.analyses.output_times import spread_times
 from adamslite.analyses.run_options import checked
 from adamslite.analyses.session import Session
@@ -75,6 +76,8 @@ def simulate(
     files: SavedFiles | None = None,
     outputs: Iterable[str] = (),
     notes: bool = True,
+    cpu_limit: float | None = None,
+    max_steps: int | None = None,
 ) -> Results:
     """Run a deck, a model or its kernels; ``commands`` are statements.
 
@@ -91,14 +94,15 @@ def simulate(
     commands = tuple(commands)
     options = checked(
         {"end": end, "steps": steps, "integrator": integrator, "formulation": formulation,
-         "error": error, "hmax": hmax}
+         "error": error, "hmax": hmax, "cpu_limit": cpu_limit, "max_steps": max_steps}
     )  # fmt: skip
+    budget = Budget(options.pop("cpu_limit", None), options.pop("max_steps", None), began)
     end, steps = options.pop("end", None), options.pop("steps", None)
     flags = {{"integrator": "method"}.get(name, name): each for name, each in options.items()}
     plan = plan_of(deck_of(scene), commands, end, steps)
     files = files or SavedFiles()
     without = left_off(no_reduction) | kept_apart(plan, audit)
-    session = Session(prepared_for(scene, commands), progress, flags, without, audit, files)
+    session = Session(prepared_for(scene, commands), progress, flags, without, audit, files, budget)
     wanted = (outputs,) if isinstance(outputs, str) else tuple(outputs)
     if wanted:
         _need_columns(session, wanted)
@@ -106,7 +110,8 @@ def simulate(
     if confirm:
         again = partial(
             simulate, scene, end, steps, commands=commands, progress=progress,
-            no_reduction=no_reduction, files=files.to_read,
+            no_reduction=no_reduction, files=files.to_read, max_steps=max_steps,
+            cpu_limit=budget.cpu_left,
         )  # fmt: skip
         results = _confirmed(results, session, again)
     return _limited(results, wanted) if wanted else results

@@ -30,12 +30,15 @@ class Seen(NamedTuple):
     failures: int
 
 
+START = Seen(0, 0, 0)
+
+
 class StepLimits:
     """What limits the steps of a run; to be asked while it runs."""
 
-    def __init__(self, system: System) -> None:
+    def __init__(self, system: System, first: Seen = START) -> None:
         self._system = system
-        self._seen: deque[Seen] = deque([Seen(0, 0, 0)], maxlen=LOOKS)
+        self._seen: deque[Seen] = deque([first], maxlen=LOOKS)
 
     def look(self) -> None:
         """Note the present counts."""

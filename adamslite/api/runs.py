@@ -36,6 +36,8 @@ def simulate(
     confirm: bool = False,
     files: SavedFiles | str | os.PathLike[str] | None = None,
     outputs: Iterable[str] = (),
+    cpu_limit: float | None = None,
+    max_steps: int | None = None,
 ) -> Results:
     """Run a deck, as `adamslite solve` does.
 
@@ -66,6 +68,11 @@ def simulate(
         The folder of the files of SAVE and RELOAD; in memory unless given.
     outputs : iterable of str
         Patterns of the columns to keep, ``REQUEST/*``, ``PART/2``; all unless given.
+    cpu_limit : float
+        CPU of this process [s] after which the run ends as CPU_LIMIT, with what it has by then.
+    max_steps : int
+        Accepted steps after which it ends as STEP_LIMIT. Without, a run that creeps ends as
+        CREEPING: see :class:`adamslite.results.outcomes.Outcome`.
 
     Warns
     -----
@@ -85,6 +92,7 @@ def simulate(
         return simulation.simulate(
             given.subject, end, steps, integrator, formulation, error, hmax, given.commands,
             shown, no_reduction, audit, confirm, kept, outputs,
+            cpu_limit=cpu_limit, max_steps=max_steps,
         )  # fmt: skip
 
 

@@ -12,7 +12,7 @@ converge to;
 :mod:`adamslite.integrators.events.events` says;
 6. counts what it does in ``P.count``;
 7. leaves the last accepted state behind, whatever the outcome;
-8. returns an outcome, one of ``DONE`` to ``PAUSED``;
+8. returns an outcome, one of ``DONE`` to ``CREEPING``, and keeps within ``P.budget``;
 9. where it declares so, pauses after ``settings.pause`` tries of a step, to be called again.
 
 Fields of :class:`Problem`; arrays have one dimension; nb bodies, n body unknowns, m multipliers, nv
@@ -60,6 +60,7 @@ lane_runs lane  of :class:`LaneRun`: loads that are evaluated by component; numb
                 for that, in rows of equal length;  lane_bodies: those with other loads
 audit           balance of energy (:class:`Audit`);  uncounted: counts before it was drawn up
 tape            accepted states of the run (:class:`Tape`)
+budget          what a run may spend (:class:`Budget`)
 pattern         per iteration whether it renews the Newton matrix, repeated; empty: as needed
 ==============  =================================================================================
 """
@@ -122,7 +123,9 @@ MODE_STATICS = 5.0
     UNSTABLE,
     CHATTERING,
     PAUSED,
-) = range(11)
+    STEP_LIMIT,
+    CREEPING,
+) = range(13)
 
 
 # What is done to equations besides integration: see adamslite.equations.operations.
@@ -320,6 +323,25 @@ class Undoing(Record):
     trouble_then: float
 
 
+class Budget(Record):
+    """What a run may spend, and how it stands.
+
+    ``most``: accepted steps after which it ends (0: no matter how many); ``short``: a step below
+    this is no progress [time]; ``crept``: accepted steps in a row that were none; ``seen t``: how
+    many steps were looked at, and where the last of them ended; ``events failures rejected``:
+    counts when the first of those in a row was taken.
+    """
+
+    most: int
+    short: float
+    crept: int
+    seen: int
+    t: float
+    events: int
+    failures: int
+    rejected: int
+
+
 class Problem(Record):
     """The data of a model, as above."""
 
@@ -390,6 +412,7 @@ class Problem(Record):
     lane: Reals
     lane_bodies: Ints
     tape: Tape
+    budget: Budget
 
 
 # Least length of ``P.work``.

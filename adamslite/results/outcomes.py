@@ -72,6 +72,22 @@ class Outcome(Enum):
         "turns the motion round. Replace the jump by a STEP of some width, use FRICTION, or set "
         "VALUE of such sensors further apart."
     )
+    CREEPING = (
+        "The run creeps: ten thousand steps in a row were each shorter than 1e-10 of the analysis, "
+        "which at this rate would never end. Take what keeps the steps short out of the scene (a "
+        "vibration far too fast: a stiffness too large or a mass too small; an expression of TIME "
+        "that changes too often; a branch that changes to and fro), allow a larger ERROR, or give "
+        "an earlier END. With --max-steps N it goes on for so many steps, however short."
+    )
+    STEP_LIMIT = (
+        "The run has taken as many steps as --max-steps allows; everything computed until then is "
+        "kept. Allow more steps, a larger ERROR or a longer HMAX, or request fewer outputs."
+    )
+    CPU_LIMIT = (
+        "The run has used the CPU time that --cpu-limit allows; everything computed until then is "
+        "kept. Allow more time, or let the run need less: an earlier END, fewer outputs, a larger "
+        "ERROR, another integrator (`adamslite chart` compares them)."
+    )
     NO_END_TIME = (
         "There is no end time. Give SIMULATE/DYNAMIC, END=..., STEPS=... in a command file "
         "(second argument, or a .acf of the deck's name beside it), or in the deck itself, "

@@ -15,6 +15,7 @@ from adamslite.integrators.contract import (
 )
 from adamslite.integrators.events.stops import least_step
 from adamslite.integrators.linalg.plan import Plan
+from adamslite.integrators.stepping.budget import spent
 from adamslite.integrators.stepping.control import RUNNING, StepControl
 from adamslite.native.translate import Reals, native, rare
 
@@ -30,11 +31,16 @@ OVERFLOW = 1e12
 
 @native
 def end_of_run(P: Problem, C: StepControl) -> int:
-    """DONE at the end time, INTERRUPTED by the user, PAUSED after so many tries, else RUNNING."""
+    """DONE at the end time, INTERRUPTED by the user, STEP_LIMIT or CREEPING where the budget is
+    spent, PAUSED after so many tries, else RUNNING.
+    """
+    over = spent(P, C.t)
     if C.t >= P.settings.t_end:
         return DONE
     if P.settings.stop:
         return INTERRUPTED
+    if over != RUNNING:
+        return over
     tries = P.count.steps + P.count.rejected + P.count.failures
     return PAUSED if P.settings.pause > 0 and tries >= P.settings.pause else RUNNING
 

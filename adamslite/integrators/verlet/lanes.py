@@ -31,6 +31,8 @@ def take_lane_steps(P: Problem, C: Control, t: float, h: float, count: int) -> f
     put_time(P, t)
     looks = 0  # steps until the acceleration is kept, with which that of the step after is compared
     for s in range(count + 1):
+        if P.settings.stop:
+            return HUGE
         P.W[0] = t + s * h
         if s > 0 and P.sizes.n_head > HEAD:
             put_time(P, t + s * h)

@@ -43,6 +43,8 @@ from adamslite.integrators.linalg.plan import HUGE, Plan
 from adamslite.integrators.motion_equations import put_time, run_groups, track
 from adamslite.integrators.records import write_record
 from adamslite.integrators.step_back import bring_audit_back, keep_audit
+from adamslite.integrators.stepping.budget import note_advance, would_overspend
+from adamslite.integrators.stepping.control import RUNNING
 from adamslite.integrators.stepping.outcome import OVERFLOW
 from adamslite.integrators.unconstrained import POWERS, clear, divide_by_mass, put_free, radius
 from adamslite.integrators.verlet.control import Control
@@ -209,20 +211,21 @@ def cover(P: Problem, L: Plan, C: Control, t: float, end: float) -> int:
             wanted = min(wanted, C.limit)
         h = (end - t) / max(1.0, 0.0 - floor(WHOLE - (end - t) / wanted))
         P.report.h = h
-        if wanted < least or blown == MOST_BLOWN:
-            return STEP_TOO_SMALL
-        if fixed and STABLE * h > C.limit:
-            return UNSTABLE
-        error = take_steps(P, L, C, t, h, int((end - t) / h + 0.5))
+        count = int((end - t) / h + 0.5)
+        refused = refusal(P, C, h, count, wanted < least or blown == MOST_BLOWN)
+        if refused != RUNNING:
+            return refused
+        error = take_steps(P, L, C, t, h, count)
         P.report.error = error
         stable = stable_in_contact(P, C, t, h) if error <= 1.0 else HUGE
         P.report.stable_step = min(P.report.stable_step, stable)
         if error <= 1.0 and h <= (stable if fixed else IN_CONTACT * stable):
             P.report.spent += C.spent
+            note_advance(P, h, count)
             C.wanted = choose_step(P, C, error, h, wanted)
             return DONE
         P.count.rejected += 1
-        if fixed:
+        if fixed and not P.settings.stop:
             return UNSTABLE
         blown = 0 if error < HUGE else blown + 1
         wanted = h * (
@@ -234,6 +237,16 @@ def cover(P: Problem, L: Plan, C: Control, t: float, end: float) -> int:
             P.q[i], P.u[i] = old[i], old[n + i]
         bring_audit_back(P)
     return INTERRUPTED
+
+
+@native
+def refusal(P: Problem, C: Control, h: float, count: int, hopeless: bool) -> int:
+    """Why ``count`` steps are not taken: too short, not stable, or too many; else RUNNING."""
+    if hopeless:
+        return STEP_TOO_SMALL
+    if C.fixed and STABLE * h > C.limit:
+        return UNSTABLE
+    return would_overspend(P, h, count)
 
 
 @native
@@ -267,6 +280,8 @@ def take_steps(P: Problem, L: Plan, C: Control, t: float, h: float, count: int) 
     hard = P.history[9 * P.sizes.nb + 2 * n :]
     put_free(P, t, P.q, P.u)
     for s in range(count + 1):
+        if P.settings.stop:
+            return HUGE
         if s > 0:
             put_time(P, t + s * h)
         run_groups(P, LOADS, P.F)

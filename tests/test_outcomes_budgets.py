@@ -1,0 +1,182 @@
+"""What a run may spend: CPU, steps, and that it gets on; with what it has by then."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from outcome_scenes import WHEN, ended_early, reason, with_integrator
+from scenes import GROUND, chain, done, run
+
+import adamslite as al
+from adamslite import Outcome
+from adamslite.cli.main import main
+from adamslite.errors import UsageError
+from adamslite.integrators.stepping.budget import MOST_CREPT
+
+POINT = GROUND + "POINT_MASS/2, MASS=1, CM=2, QG=1,0,0\nMARKER/2, POINT_MASS=2\n"
+METHODS = ("GSTIFF", "GSTIFF, I3", "HHT", "RADAU", "ABAM", "VERLET")
+
+# A limit cycle of 6e-12 s, followed for a second.
+CYCLE = POINT + (
+    "DIFF/1, IC=1, FUNCTION=1E12*DIF(2)\n"
+    "DIFF/2, IC=0, FUNCTION=1E12*((1-DIF(1)**2)*DIF(2)-DIF(1))\nEND\n"
+)
+# A stiffness 1e20 times too large beside one that is meant: 6e-13 s.
+STIFF = POINT + (
+    "VFORCE/1, I=2, J_PART=1, FX=-1E6*DX(2)\nVFORCE/2, I=2, J_PART=1, FX=-1E26*DX(2)\nEND\n"
+)
+# A load of an amplitude and a frequency of which steps cannot pass a period.
+SHAKEN = POINT + "VFORCE/1, I=2, J_PART=1, FX=1E26*SIN(1E13*TIME)\nEND\n"
+# Nothing is looked further ahead than a delay.
+DELAYED = POINT + (
+    "VARIABLE/1, FUNCTION=VX(2)\nVFORCE/1, I=2, J_PART=1, FX=-DELAY(VARVAL(1),1E-12,0)\nEND\n"
+)
+
+
+def crept(deck: str, method: str) -> str:
+    """Why a run over a second is ended as one that creeps."""
+    results = ended_early(with_integrator(deck, method))
+    assert results.outcome is Outcome.CREEPING, results.message
+    assert results.summary["t_end"] < 1e-10 * 2 * MOST_CREPT
+    assert results.time.tolist() == [0.0] and np.isfinite(results.values).all()
+    assert "--max-steps" in results.outcome.value and "ERROR" in results.outcome.value
+    return reason(results)
+
+
+@pytest.mark.parametrize("method", ("GSTIFF", "HHT", "RADAU", "ABAM"))
+def test_a_cycle_of_picoseconds_names_its_state(method: str) -> None:
+    told = crept(CYCLE, method)
+    found = re.fullmatch(
+        rf"A{WHEN[1:]} and order \d, held by the error of DIFF/[12] \(.*\)\.", told
+    )
+    assert found, told
+
+
+@pytest.mark.parametrize("method", ("HHT", "ABAM"))
+def test_of_two_springs_the_one_too_stiff_is_named(method: str) -> None:
+    told = crept(STIFF, method)
+    assert "held by the error of POINT_MASS/2 (<text>:4:1), " in told
+    assert told.endswith("; of the forces there VFORCE/2 (<text>:7:1) changes most.")
+
+
+def test_a_load_too_fast_is_named() -> None:
+    told = crept(SHAKEN, "ABAM")
+    assert told.endswith("; of the forces there VFORCE/1 (<text>:6:1) changes most.")
+
+
+def test_a_delay_that_is_next_to_nothing_is_named() -> None:
+    assert crept(DELAYED, "VERLET").endswith("held by its shortest DELAY: no step reaches further "
+                                             "than that.")  # fmt: skip
+
+
+def test_equal_steps_between_outputs_creep_too() -> None:
+    """VERLET knows before an interval how many steps it takes: 16 million of 1.9e-10 s, which are
+    no progress in 3 s.
+    """
+    deck = POINT + "VFORCE/1, I=2, J_PART=1, FX=-1E20*DX(2)\nEND\n"
+    results = ended_early(with_integrator(deck, "VERLET"), 3.0, 1000)
+    assert results.outcome is Outcome.CREEPING
+    assert reason(results).endswith(
+        "held by the vibration of POINT_MASS/2 (<text>:4:1), x, where VFORCE/1 (<text>:6:1) "
+        "changes most."
+    )
+
+
+def test_steps_that_were_requested_do_not_creep() -> None:
+    """20 000 steps of 1e-11 s, the first of a run of a second that is not followed to its end."""
+    deck = POINT + "END\n"
+    results = ended_early(with_integrator(deck, "GSTIFF, HMAX=1E-11"), max_steps=20_000)
+    assert results.outcome is Outcome.STEP_LIMIT
+    short = ended_early(with_integrator(deck, "GSTIFF, HMAX=1E-11"), cpu_limit=0.3)
+    assert short.outcome is Outcome.CPU_LIMIT and short.summary["steps"] > MOST_CREPT
+
+
+def test_a_load_that_is_known_to_calm_down_is_no_creeping() -> None:
+    """It turns 20 000 rad in all, most of them in the first 10 ns, whose steps keep its pace."""
+    burst = "VFORCE/1, I=2, J_PART=1, FX=SIN(2E-5/(TIME+1E-9))\nEND\n"
+    results = done(POINT + burst, 1.0, 10, integrator="ABAM")
+    assert results.summary["steps"] > 1.5 * MOST_CREPT
+
+
+def test_creeping_goes_on_for_as_many_steps_as_are_allowed() -> None:
+    results = ended_early(with_integrator(CYCLE, "RADAU"), max_steps=3 * MOST_CREPT)
+    assert results.outcome is Outcome.STEP_LIMIT
+    assert results.summary["steps"] == 3 * MOST_CREPT
+
+
+SPRING = POINT + "SPRINGDAMPER/1, TRANSLATIONAL, I=2, J=1, K=100, LENGTH=0.5\nEND\n"
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_no_more_steps_are_taken_than_are_allowed(method: str) -> None:
+    """What there is by then is what the whole run has."""
+    deck = with_integrator(SPRING, f"{method}, HMAX=0.01")
+    whole = done(deck, 10.0, 1000)
+    results = ended_early(deck, 10.0, 1000, max_steps=150)
+    assert results.outcome is Outcome.STEP_LIMIT
+    assert 140 <= results.summary["steps"] <= 150
+    rows = len(results.time)
+    assert 1 < rows < len(whole.time)
+    np.testing.assert_array_equal(results.values, whole.values[:rows])
+    assert re.match(rf"A{WHEN[1:]} and order \d", reason(results))
+
+
+def test_as_many_steps_as_a_run_takes_are_enough() -> None:
+    steps = done(SPRING, 1.0, 10, integrator="RADAU").summary["steps"]
+    assert done(SPRING, 1.0, 10, integrator="RADAU", max_steps=steps).summary["steps"] == steps
+
+
+TWICE = SPRING.replace(
+    "END\n", "SIMULATE/DYNAMIC, END=1, STEPS=100\nSIMULATE/DYNAMIC, END=2, STEPS=100\nEND\n"
+)
+
+
+def test_steps_of_all_analyses_count() -> None:
+    results = ended_early(TWICE, None, None, integrator="GSTIFF", hmax=0.01, max_steps=150)
+    assert results.outcome is Outcome.STEP_LIMIT and results.summary["steps"] == 150
+    assert 1.0 < results.time[-1] < 2.0
+
+
+def test_a_kinematic_analysis_counts_its_outputs() -> None:
+    crank = (
+        GROUND + "PART/2, MASS=1, CM=2, IP=1,1,1\nMARKER/2, PART=2\nJOINT/1, REVOLUTE, I=2, J=1\n"
+    )
+    crank += (
+        "MOTION/1, JOINT=1, ROTATION, FUNCTION=TIME\nSIMULATE/KINEMATIC, END=1, STEPS=100\nEND\n"
+    )
+    results = ended_early(crank, None, None, max_steps=30)
+    assert results.outcome is Outcome.STEP_LIMIT and results.summary["steps"] == 30
+    np.testing.assert_allclose(results.time, np.linspace(0.0, 0.3, 31))
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_the_cpu_that_is_allowed_ends_a_run(method: str) -> None:
+    deck = with_integrator(chain(4), f"{method}, HMAX=1E-6")
+    results = ended_early(deck, 1e4, 1_000_000, cpu_limit=0.2)
+    assert results.outcome is Outcome.CPU_LIMIT
+    assert results.summary["t_end"] < 1e4 and np.isfinite(results.values).all()
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("max_steps", 0), ("max_steps", 1.5), ("max_steps", np.nan), ("max_steps", "9")]
+    + [("cpu_limit", 0.0), ("cpu_limit", -1), ("cpu_limit", np.nan), ("cpu_limit", "1")],
+)
+def test_a_limit_that_is_none_is_rejected(name: str, value: object) -> None:
+    with pytest.raises(UsageError, match=f"{name}=.*: it must be a"):
+        run(SPRING, 1.0, **{name: value})
+
+
+def test_the_command_line_keeps_what_there_is(tmp_path: Path, capsys: Any) -> None:
+    deck, out = tmp_path / "spring.adm", tmp_path / "out.csv"
+    deck.write_text(SPRING)
+    flags = ["--end", "10", "--steps", "1000", "--max-steps", "200", "--integrator", "GSTIFF"]
+    assert main(["solve", str(deck), "-o", str(out), *flags]) == 4
+    assert "as many steps as --max-steps allows" in capsys.readouterr().err
+    kept = al.Results.load(out)
+    assert 100 < len(kept.time) <= 201
+    assert "STEP_LIMIT" in out.read_text()
