@@ -7,7 +7,7 @@ session, session_state         the commands in turn, and the state that they lea
 dynamic, static, kinematic     the analyses; method_choice, planar_reduction, delays prepare them
 saves, saved_state, info       SAVE, RELOAD, INFO
 accuracy_notes, confirmation   how good a run was; apart, buckling, slack, standstill: what is odd
-failure_report                 why it ended early
+failure_report                 why it ended early; held_steps: what kept its steps short
 clock                          expressions of time alone: values, jumps, limits of the step size
 initial                        assembled positions and velocities, redundant constraints
 linearization                  small motions about a state

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.analyses.budget import Budget
 from adamslite.analyses.clock.clock import Clock
 from adamslite.analyses.clock.motion_jumps import first_jump
 from adamslite.analyses.clock.step_limits import timetable
+from adamslite.analyses.run_options import Budget
 from adamslite.analyses.sensors import EQUAL, require_changing, require_none
 from adamslite.analyses.step_limits import StepLimits
 from adamslite.analyses.worker import Worker

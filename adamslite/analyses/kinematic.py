@@ -20,8 +20,8 @@ from adamslite.integrators.contract import ACCELERATIONS, RECORD
 from adamslite.results.outcomes import Outcome
 
 if TYPE_CHECKING:
-    from adamslite.analyses.budget import Budget
     from adamslite.analyses.initial.conditions import Unclosed
+    from adamslite.analyses.run_options import Budget
     from adamslite.equations.system import System
 
 # Angles are counted by the nearest one to the last: no part turns further in a step, and two may

@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from adamslite.analyses.apart import Apart
-from adamslite.analyses.budget import Budget
 from adamslite.analyses.clock.clock import Clock
 from adamslite.analyses.clock.motion_jumps import without_value
 from adamslite.analyses.delays import Delays
@@ -25,6 +24,7 @@ from adamslite.analyses.initial.algebraic_states import settle_states
 from adamslite.analyses.initial.conditions import initial_conditions, settle_variables
 from adamslite.analyses.initial.redundancy import leave_out_redundant
 from adamslite.analyses.method_choice import MethodChoice
+from adamslite.analyses.run_options import Budget
 from adamslite.analyses.saves import Saves
 from adamslite.analyses.sensors import SensorLog
 from adamslite.analyses.static import PIVOTING, StaticSettings

@@ -14,9 +14,8 @@ import numpy as np
 
 from adamslite.analyses.accuracy_notes import accuracy_notes
 from adamslite.analyses.buckling import buckled
-from adamslite.analyses.budget import Budget
 from adamslite.analyses.output_times import spread_times
-from adamslite.analyses.run_options import checked
+from adamslite.analyses.run_options import Budget, checked
 from adamslite.analyses.session import Session
 from adamslite.analyses.slack import compressed
 from adamslite.analyses.subject import deck_of, prepared_for

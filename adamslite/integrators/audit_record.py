@@ -1,4 +1,6 @@
-"""What audits keep: the balance of energy, the step whose work is counted, the tape of a run."""
+"""What accompanies a run: the balance of energy, the step whose work is counted, the tape; what it
+may spend.
+"""
 
 from __future__ import annotations
 
@@ -103,3 +105,22 @@ class Tape(Record):
     kept: int
     full: bool
     data: Reals
+
+
+class Budget(Record):
+    """What a run may spend, and how it stands.
+
+    ``most``: accepted steps after which it ends (0: no matter how many); ``short``: a step below
+    this is no progress [time]; ``crept``: accepted steps in a row that were none; ``seen t``: how
+    many steps were looked at, and where the last of them ended; ``events failures rejected``:
+    counts when the first of those in a row was taken.
+    """
+
+    most: int
+    short: float
+    crept: int
+    seen: int
+    t: float
+    events: int
+    failures: int
+    rejected: int

@@ -67,7 +67,7 @@ pattern         per iteration whether it renews the Newton matrix, repeated; emp
 
 from __future__ import annotations
 
-from adamslite.integrators.audit_record import Audit, Tape
+from adamslite.integrators.audit_record import Audit, Budget, Tape
 from adamslite.integrators.event_rows import Search, SensorRow
 from adamslite.native.translate import Ints, Reals, Record, Rows
 
@@ -321,25 +321,6 @@ class Undoing(Record):
     turned: float
     trouble: float
     trouble_then: float
-
-
-class Budget(Record):
-    """What a run may spend, and how it stands.
-
-    ``most``: accepted steps after which it ends (0: no matter how many); ``short``: a step below
-    this is no progress [time]; ``crept``: accepted steps in a row that were none; ``seen t``: how
-    many steps were looked at, and where the last of them ended; ``events failures rejected``:
-    counts when the first of those in a row was taken.
-    """
-
-    most: int
-    short: float
-    crept: int
-    seen: int
-    t: float
-    events: int
-    failures: int
-    rejected: int
 
 
 class Problem(Record):
