@@ -32,7 +32,7 @@ if TYPE_CHECKING:  # few runs need sparse matrices
 
     from adamslite.elements.sensor import Sensor
     from adamslite.equations.broken_motion import Break
-    from adamslite.integrators.audit_record import Audit, Tape
+    from adamslite.integrators.audit_record import Audit, Budget, Tape
     from adamslite.integrators.event_rows import Search
     from adamslite.kernels.groups import Kernels
     from adamslite.language.statement import Statement
@@ -86,6 +86,7 @@ class System:
     search: Search
     undoing: contract.Undoing
     audit: Audit
+    budget: Budget
     tape: Tape
     q: np.ndarray
     u: np.ndarray
