@@ -178,6 +178,30 @@ def test_degrees_inside_expressions() -> None:
     assert function("AZ(2,1)-89D").args[1].value == pytest.approx(89 * DEGREE)
 
 
+@pytest.mark.parametrize(
+    ("written", "value"),
+    [
+        ("90D+360D", 450 * DEGREE),
+        ("90D+360.5", 90 * DEGREE + 360.5),
+        ("90D-2E1", 90 * DEGREE - 20),
+        ("90D +2", 90 * DEGREE + 2),
+        ("90D+2", 9000.0),
+        ("1D+03", 1000.0),
+    ],
+)
+def test_degrees_before_a_sign(written: str, value: float) -> None:
+    """An exponent is a whole number."""
+    assert last(f"VARIABLE/1, IC={written}, FUNCTION=1").ic == pytest.approx(value)
+
+
+@pytest.mark.parametrize("written", ["90D+2*TIME", "TIME*(3-1.5d-1)"])
+def test_a_signed_exponent_with_d_is_reported_in_expressions(written: str) -> None:
+    deck = deck_with(f"VARIABLE/1, FUNCTION={written}")
+    assert [each.code for each in deck.warnings] == ["exponent-or-degrees"]
+    assert not deck_with(f"VARIABLE/1, FUNCTION={written.upper().replace('D', 'E')}").warnings
+    assert not deck_with("VARIABLE/1, IC=1D-3, FUNCTION=90D + 2*TIME").warnings
+
+
 def test_a_vector_may_stand_in_brackets() -> None:
     assert last("MARKER/4, PART=1, QP=(1, -2, 3), REULER=90D, 0D, 1D-3").qp == (1, -2, 3)
     assert last("MARKER/4, PART=(1), REULER=90D,0D,1D-3").reuler == (math.pi / 2, 0, 1e-3)

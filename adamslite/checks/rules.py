@@ -24,6 +24,7 @@ from adamslite.checks.contacts import contact_laws, contact_shapes
 from adamslite.checks.dimensions import DIMENSION_RULES
 from adamslite.checks.effective_mass import effective_masses
 from adamslite.checks.equations import unformed_equations
+from adamslite.checks.exponents import exponents_or_degrees
 from adamslite.checks.frictions import frictions
 from adamslite.checks.inert import (
     acts_on_flexible,
@@ -95,6 +96,7 @@ RULES: list[Rule] = [
     sections,
     frictions,
     idle_arguments,
+    exponents_or_degrees,
     shapes,
     contact_laws,
     contact_shapes,
@@ -114,7 +116,7 @@ RULES: list[Rule] = [
 UNNUMBERED = (
     a_ground, second_grounds, markers_of_bodies, owners, floating_alone, floating_use,
     floating_unused, acts_on_flexible, reactions, distinct_ends, torques_on_points,
-    wrenches_on_points, file_names, passed_over,
+    wrenches_on_points, file_names, passed_over, exponents_or_degrees,
 )  # fmt: skip
 """Rules that look at no number."""
 VALUE_RULES = [rule for rule in RULES if rule not in UNNUMBERED]

@@ -73,6 +73,12 @@ ARGUMENTS: dict[str, Message] = {
         ("ACCGRAV/JGRAV=-9.81D",),
         severity=WARNING,
     ),
+    "exponent-or-degrees": Message(
+        "{text} is read as one number, {value:g}",
+        "write {power} for a power of ten; for degrees, put a blank behind the D",
+        ("VARIABLE/1, FUNCTION=90D+2*TIME", "VARIABLE/1, FUNCTION=SIN(5.0d-1*TIME)"),
+        severity=WARNING,
+    ),
     "not-an-integer": Message(
         "{word} takes a whole number", "", ("SIMULATE/DYNAMICS, END=1, STEPS=1.5",)
     ),
