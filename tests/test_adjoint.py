@@ -86,8 +86,11 @@ END
 
 @pytest.fixture(autouse=True)
 def in_space(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Sensitivities along the same steps: a sweep back is in space."""
+    """Sensitivities along the same steps, whose systems are solved to round-off: a sweep back is in
+    space, and has matrices of all steps.
+    """
     monkeypatch.setattr(study, "PLANAR", False)
+    monkeypatch.setattr(taped, "EXACT", True)
 
 
 def compare(

@@ -11,6 +11,7 @@ import pytest
 import adamslite as al
 from adamslite.cli.main import main
 from adamslite.errors import UsageError
+from adamslite.sensitivity import study
 from adamslite.sensitivity.study import Study
 
 SPRING = """m x'' = -k (x - 1) - c x', let go at x = 2 at rest
@@ -123,6 +124,38 @@ def test_a_vibration_that_the_steps_of_the_run_do_not_resolve_is_told():
     fine = al.sensitivities(SPRING, ["SPRINGDAMPER/1.K"], ["POINT_MASS/2.x"], **RUN)
     assert fine.errors[0] < 1e-7
     assert not fine.notes
+
+
+@pytest.mark.parametrize("method", ["GSTIFF", "RADAU"])
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-6, 1e-8])
+def test_estimates_are_what_derivatives_are_off_by(method, tolerance):
+    """Within a power of ten or so, of the stiffness and the damping of a vibration."""
+    by, run = ["SPRINGDAMPER/1.K", "SPRINGDAMPER/1.C"], {**RUN, "end": 20.0, "error": tolerance}
+    found = al.sensitivities(SPRING, by, ["POINT_MASS/2.x"], integrator=method, **run)
+    expected = spring_slopes(found.time)
+    for estimate, name in zip(found.errors, by, strict=True):
+        gap = np.abs(found.curve("POINT_MASS/2.x", name) - expected[name]).max()
+        actual = gap / np.abs(expected[name]).max()
+        assert 0.1 * actual <= estimate <= 30.0 * actual
+
+
+@pytest.mark.parametrize("method", ["GSTIFF", "RADAU"])
+def test_what_moves_nothing_is_not_called_coarse(method):
+    """Of a mass that a motion moves only reactions hang on it: places have derivatives of
+    round-off.
+    """
+    deck = """a mass that is moved
+PART/1, GROUND
+MARKER/1, PART=1, REULER=0,90D,0
+PART/2, MASS=2, CM=2, IP=1,1,1
+MARKER/2, PART=2, REULER=0,90D,0
+JOINT/1, TRANSLATIONAL, I=2, J=1
+MOTION/1, JOINT=1, FUNCTION=SIN(3*TIME)
+END
+"""
+    found = al.sensitivities(deck, ["PART/2.MASS"], end=2.0, steps=20, integrator=method)
+    assert found.errors[0] < study.DOUBTFUL
+    assert not found.notes
 
 
 def test_a_number_of_a_table_is_told():

@@ -13,6 +13,7 @@ from scenes import GRAVITY, INERTIA, LENGTH, MASS, PENDULUM, PERIOD, RATE
 from scipy.integrate import solve_ivp
 
 import adamslite as al
+from adamslite.sensitivity import study, taped
 
 DECKS = Path(__file__).parents[1] / "decks"
 
@@ -215,6 +216,38 @@ def test_forces_that_set_in_where_the_motion_takes_them(method):
     # x = (t - t0)^2/2 behind the time t0 in the text
     slopes = -np.maximum(found.time - 0.313, 0.0)
     assert error(found.curve("POINT_MASS/2.x", "VFORCE/1.FX[0]"), slopes) <= 1e-6
+
+
+@pytest.mark.filterwarnings("ignore::adamslite.DeckWarning")
+@pytest.mark.parametrize(
+    ("name", "by", "run"),
+    [
+        ("pendulum-gcon", "ACCGRAV.JGRAV", {"end": 1.0, "steps": 40}),
+        ("bricard", "MARKER/40.QP[1]", {"end": 0.5, "steps": 25}),
+        ("four-bar", "JOINT/1.IC[1]", {"end": 0.5, "steps": 50}),
+        ("spring-pendulum", "POINT_MASS/2.QG[2]", {"end": 2.0, "steps": 40}),
+        ("heavy-top", "PART/2.IP[2]", {"end": 0.2, "steps": 10}),
+    ],
+)
+def test_matrices_that_are_kept_cost_no_digits(name, by, run, monkeypatch):
+    """Derivatives by matrices of earlier steps differ from those by matrices of all steps by less
+    than either is off by; far fewer matrices are made.
+    """
+    made = []
+    followed = taped.followed
+
+    def watched(*given):
+        made.append(followed(*given))
+        return made[-1]
+
+    monkeypatch.setattr(study, "followed", watched)
+    deck = al.read(DECKS / name / f"{name}.adm")
+    kept = al.sensitivities(deck, [by], ["*.?"], error=1e-8, integrator="GSTIFF", **run)
+    monkeypatch.setattr(taped, "EXACT", True)
+    exact = al.sensitivities(deck, [by], ["*.?"], error=1e-8, integrator="GSTIFF", **run)
+    size = np.abs(exact.curves).max()
+    assert np.abs(kept.curves - exact.curves).max() <= exact.errors[0] * size
+    assert made[0].matrices <= 0.5 * made[1].matrices
 
 
 IMPACT = """a ball that bounces on a floor with damping

@@ -7,7 +7,8 @@ directions, recipes            how the arrays of a model depend on numbers of th
 taped, record, measures        a run that keeps its tape, and what is asked of it
 tangents, rates, outputs       derivatives of the equations, of accelerations, of what is written
 start, begin                   at the start of a run and behind its events
-differences, stages            along the steps of backward differences, and of Radau
+differences, corrector         along the steps of backward differences; their linear systems
+stages, stage_error            along the steps of Radau; what they are off by
 adjoint_columns, _numbers      measures as weights of columns; numbers of equations as the deck's
 adjoint_sweep, _formula        the same steps from the end to the beginning; _stages those of Radau
 adjoint_weights, transposed    weights carried back through equations and through their systems

@@ -76,7 +76,16 @@ class Forward(Record):
     h, order             of the last step
     stages               (3 W.size,) workspaces of the stages of a step
     floor                (np,) increments of places that are round-off
-    age, factored        steps since matrices were made; the step that they are factored for
+    age, factored        steps since matrices were made; the step, or the cu, that they are for
+    exact                whether every step has a matrix of its own
+    limit, slope         what iterations may leave, as a share of sensitivities; (2 np,) rates of
+                         first and of further iterations over the squared age of a matrix
+    matrices             how many were made
+    extra, spare, first  iterations beyond one for each number: in the last step, since the matrix
+                         was made, in the first step with an old one
+    kept, oldest         (np, KEPT, m + nv) multipliers and variables of the last steps; which row
+    when, known, share   (KEPT,) times of these rows, how many there are, shares in a later one
+    v, mu                increments of places; corrections of velocities
     spent, top           (2 np,) of places and velocities: sums of estimated errors, the largest
     grazed               events whose time has no derivative
     """
@@ -101,6 +110,20 @@ class Forward(Record):
     floor: Reals
     age: int
     factored: float
+    exact: bool
+    limit: float
+    slope: Reals
+    matrices: int
+    extra: int
+    spare: int
+    first: float
+    kept: Reals
+    oldest: int
+    when: Reals
+    known: int
+    share: Reals
+    v: Reals
+    mu: Reals
     spent: Reals
     top: Reals
     grazed: int

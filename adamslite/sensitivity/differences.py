@@ -5,10 +5,8 @@ equations: with differences of the sensitivities y on the same steps and orders
 
     y' = (psi + d) cu,    F_q dq + F_u du + F_a da + F_z dz + F_s' ds' + F_p = 0
 
-whose matrix is that of Newton's method at the accepted state.  It is linear: each step takes one
-matrix for all numbers, and for each number one tangent and one solution.  Turns are rates of
-theta' = dw + w x theta.  In the stabilised form dq' = du - W G^T dmu; mu itself is nothing but
-error.
+is a linear system for each number (:mod:`adamslite.sensitivity.corrector`).  Turns are rates of
+theta' = dw + w x theta.
 
 Reference: Caracotsios, Stewart, Comput. Chem. Eng. 9 (1985) 359 (staggered direct method).
 """
@@ -29,25 +27,25 @@ from adamslite.integrators.bdf.dense_output import interpolate
 from adamslite.integrators.bdf.differences import change_step, extend_history, extrapolate, gamma
 from adamslite.integrators.bdf.state import tests_velocities
 from adamslite.integrators.contract import DONE, SINGULAR_MASS, Problem
-from adamslite.integrators.implicit.formulation import equations_kept, is_stabilised
-from adamslite.integrators.linalg.blocks import factor, solve
 from adamslite.integrators.linalg.plan import Plan
-from adamslite.integrators.motion_equations import (
-    jacobian,
-    project_on_constraints,
-    spread,
-    track,
-)
-from adamslite.integrators.newton import add_mixed_product
+from adamslite.integrators.motion_equations import track
 from adamslite.integrators.stepping.output import WITHIN
-from adamslite.kernels.code.workspace import OMEGA
 from adamslite.native.translate import Reals, copy, native
 from adamslite.sensitivity.begin import begin_history
 from adamslite.sensitivity.contract import Forward, Tangents
+from adamslite.sensitivity.corrector import (
+    MOST,
+    continued,
+    corrected,
+    farthest,
+    forgotten,
+    grown_older,
+    kept_at,
+    outdated,
+    renewed,
+)
 from adamslite.sensitivity.outputs import write_outputs
-from adamslite.sensitivity.rates import spun
 from adamslite.sensitivity.start import at_start, jump
-from adamslite.sensitivity.tangents import clear, put_direction, tangent
 
 
 @native
@@ -62,18 +60,23 @@ def by_differences(P: Problem, L: Plan, D: Tangents, S: Forward) -> int:
         if here[TAPE_KIND] != AT_STEP:
             jump(P, L, D, S, T.data[(row - 1) * T.width + TAPE_HEAD :], here[TAPE_HEAD:])
             copy(P.W, here[TAPE_HEAD:], P.W.size)
+            forgotten(S)
             if row + 1 < T.rows:
                 fresh = restarts(T.data[(row - 1) * T.width :], T.data[(row + 1) * T.width :])
             continue
         if fresh and not begin_history(P, L, D, S, here[TAPE_STEP], int(here[TAPE_ORDER])):
             return SINGULAR_MASS
+        if fresh:
+            forgotten(S)
         fresh = False
         copy(P.W, here[TAPE_HEAD:], P.W.size)
         if not step(P, L, D, S, here):
             return SINGULAR_MASS
+        before = S.row
         if not record(P, L, D, S, here):
             return SINGULAR_MASS
-        copy(P.W, here[TAPE_HEAD:], P.W.size)
+        if S.row > before:
+            copy(P.W, here[TAPE_HEAD:], P.W.size)
         track(P)
     return DONE
 
@@ -87,56 +90,46 @@ def restarts(before: Reals, behind: Reals) -> bool:
 @native
 def step(P: Problem, L: Plan, D: Tangents, S: Forward, here: Reals) -> bool:
     """Sensitivities at the end of a step, whose state is in the workspace."""
-    h, order, w = here[TAPE_STEP], int(here[TAPE_ORDER]), S.width
-    cu = gamma(order) / h
-    if not matrix(P, L, cu):
+    h, order = here[TAPE_STEP], int(here[TAPE_ORDER])
+    cu, extra = gamma(order) / h, 0
+    for number in range(D.count if h != S.h else 0):
+        change_step(S.history[number * S.room :], S.width, order, h / S.h)
+    if outdated(S, cu) and not renewed(P, L, S, cu):
         return False
-    yp, psi, y = S.y[0:], S.y[w:], S.y[2 * w :]
+    continued(S, here[TAPE_TIME])
     for number in range(D.count):
-        H = S.history[number * S.room :]
-        if h != S.h:
-            change_step(H, w, order, h / S.h)
-        extrapolate(H, w, order, yp, psi)
-        for i in range(w):
-            yp[i] += H[i]
-            y[i] = yp[i]
-        solved(P, L, D, S, number, cu, here)
-        for i in range(w):
-            psi[i] = y[i] - yp[i]
-        note_error(P, S, number, y, psi, order)
-        extend_history(H, psi, w, order)
+        predict(S, number, order)
+        turns = corrected(P, L, D, S, number, cu, order, here)
+        if turns > MOST:
+            if not renewed(P, L, S, cu):
+                return False
+            turns, extra = corrected(P, L, D, S, number, cu, order, here), 0
+        accept(P, S, number, order)
+        extra += turns - 1
+    kept_at(S, here[TAPE_TIME])
+    grown_older(S, extra)
     S.h, S.order = h, order
     return True
 
 
 @native
-def solved(
-    P: Problem, L: Plan, D: Tangents, S: Forward, number: int, cu: float, here: Reals
-) -> None:
-    """Sensitivities from the prediction: the first three rows of ``S.y`` hold it, psi, and where
-    they are to stand.
-    """
-    n, w, first = P.sizes.n, S.width, P.sizes.m + P.sizes.nv
-    yp, psi, y, v = S.y[0:], S.y[w:], S.y[2 * w :], S.y[3 * w :]
-    for i in range(n):
-        v[i] = psi[i] * cu
-    spun(P, y, v, -1.0, y[n:])
-    for i in range(n):
-        S.a[i] = (psi[n + i] + y[n + i] - yp[n + i]) * cu
-    clear(S.z, first)
-    for k in range(P.sizes.ns):
-        S.sd[k] = psi[2 * n + k] * cu
-    put_direction(P, D, y, S.a, S.z, S.sd, 0.0)
-    tangent(P, D, number, equations_kept(P), P.F)
-    solve(L, P.LV, P.pivots, P.F, P.x, P.work)
-    for i in range(n):
-        y[i] -= P.F[i]
-        v[i] -= P.F[i] * cu
-    for k in range(P.sizes.ns):
-        y[2 * n + k] -= P.F[n + first + k]
-    spun(P, y, v, -1.0, y[n:])
-    if is_stabilised(P):
-        add_multipliers(P, S, y[n:], here)
+def predict(S: Forward, number: int, order: int) -> None:
+    """Predicted sensitivities by a number and psi, into ``S.y``."""
+    H, w, yp = S.history[number * S.room :], S.width, S.y[0:]
+    extrapolate(H, w, order, yp, S.y[w:])
+    for i in range(w):
+        yp[i] += H[i]
+
+
+@native
+def accept(P: Problem, S: Forward, number: int, order: int) -> None:
+    """Extend the history by the sensitivities in ``S.y``."""
+    w = S.width
+    yp, change, y = S.y[0:], S.y[w:], S.y[2 * w :]
+    for i in range(w):
+        change[i] = y[i] - yp[i]
+    note_error(P, S, number, y, change, order)
+    extend_history(S.history[number * S.room :], change, w, order)
 
 
 @native
@@ -146,55 +139,9 @@ def note_error(P: Problem, S: Forward, number: int, y: Reals, change: Reals, ord
     """
     n = P.sizes.n
     for part in range(2 if tests_velocities(P) else 1):
-        error, top = 0.0, 0.0
-        for i in range(part * n, (part + 1) * n):
-            error, top = max(error, abs(change[i])), max(top, abs(y[i]))
-        S.spent[2 * number + part] += error / (order + 1)
-        S.top[2 * number + part] = max(S.top[2 * number + part], top)
-
-
-@native
-def add_multipliers(P: Problem, S: Forward, u: Reals, here: Reals) -> None:
-    """u += W G^T dmu; the solution is in F, the multipliers of the workspace are put back."""
-    n, mu = P.sizes.n, P.sizes.nz - P.sizes.holonomic
-    for k in range(P.sizes.holonomic):
-        S.z[k] = -P.F[mu + k]
-    project_on_constraints(P, S.z, S.a)
-    for i in range(n):
-        u[i] += S.a[i]
-    for k in range(P.sizes.m):
-        P.W[P.scalar[k]] = here[TAPE_HEAD + P.scalar[k]]
-
-
-@native
-def matrix(P: Problem, L: Plan, cu: float) -> bool:
-    """Factor the derivative of the equations by the increments at the workspace's state."""
-    c, phases = P.coef, equations_kept(P)
-    c[0], c[1], c[2], c[3], c[4] = 1.0, cu, cu * cu, 1.0, cu
-    jacobian(P, phases, c, P.J)
-    if P.turning.size or P.mixed.size:
-        c[0], c[1], c[2], c[3], c[4] = 0.0, 1.0, cu, 0.0, 0.0
-        jacobian(P, phases, c, P.D)
-        for k in range(0, P.turning.size, 4):
-            add_spin(P, k, P.J, P.D)
-        for k in range(0, P.mixed.size, 8):
-            add_mixed_product(P, k, P.J, P.D, P.J)
-    spread(P, P.LV)
-    return factor(L, P.LV, P.pivots, P.work)
-
-
-@native
-def add_spin(P: Problem, entry: int, J: Reals, D: Reals) -> None:
-    """J[:, 3:6] -= D[:, 3:6] [w] on the rows and columns of an entry of ``P.turning``."""
-    at, rows = P.turning[entry], P.turning[entry + 1]
-    o = P.body[P.turning[entry + 2]].at + OMEGA
-    w0, w1, w2 = P.W[o], P.W[o + 1], P.W[o + 2]
-    for r in range(rows):
-        k = at + 6 * r
-        d0, d1, d2 = D[k + 3], D[k + 4], D[k + 5]
-        J[k + 3] -= d1 * w2 - d2 * w1
-        J[k + 4] -= d2 * w0 - d0 * w2
-        J[k + 5] -= d0 * w1 - d1 * w0
+        at = 2 * number + part
+        S.spent[at] += farthest(change[part * n :], n) / (order + 1)
+        S.top[at] = max(S.top[at], farthest(y[part * n :], n))
 
 
 @native

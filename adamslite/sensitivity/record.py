@@ -30,7 +30,7 @@ class Sensitivities:
         Words about numbers, by their names, and about the run.
     errors : numpy.ndarray
         (np,) what derivatives of places and velocities are estimated to be off by, against the
-        largest; not-a-number where nothing is known, by RADAU.
+        largest.
     """
 
     by: tuple[str, ...]

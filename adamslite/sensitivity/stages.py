@@ -41,6 +41,7 @@ from adamslite.native.translate import Reals, copy, native
 from adamslite.sensitivity.contract import Forward, Tangents
 from adamslite.sensitivity.outputs import write_outputs
 from adamslite.sensitivity.rates import spun
+from adamslite.sensitivity.stage_error import note_stage_errors
 from adamslite.sensitivity.start import at_start, jump
 from adamslite.sensitivity.tangents import put_direction, tangent
 
@@ -78,6 +79,8 @@ def by_stages(P: Problem, L: Plan, D: Tangents, S: Forward) -> int:
             return SINGULAR_MASS
         if not record(P, L, D, S, here):
             return SINGULAR_MASS
+        before = T.data[(row - 1) * T.width + TAPE_HEAD :]
+        note_stage_errors(P, L, D, S, before, ROWS * S.width, z_width(P), here[TAPE_STEP])
         for number in range(D.count):
             H = S.history[number * S.room :]
             copy(H[ROWS * S.width + 3 * z_width(P) :], H, S.width)

@@ -23,6 +23,7 @@ from adamslite.integrators.radau.history import Y_ROWS
 from adamslite.results.outcomes import Outcome
 from adamslite.sensitivity.begin import ROWS
 from adamslite.sensitivity.contract import Forward
+from adamslite.sensitivity.corrector import KEPT
 from adamslite.sensitivity.directions import Collected, Direction, Snapshot, tangent_groups
 
 if TYPE_CHECKING:
@@ -33,13 +34,15 @@ FORMULAS = {
     "GSTIFF": "adamslite.sensitivity.differences.by_differences",
     "RADAU": "adamslite.sensitivity.stages.by_stages",
 }
-#: Whether a formula estimates errors of sensitivities.
-ESTIMATED = {"GSTIFF": True, "RADAU": False}
 WITHOUT = "derivatives are worked out along the steps of {known}; {method} is none of them"
 SEVERAL = (
     "derivatives are those of one dynamic analysis: here a second one follows (several SIMULATE, "
     "or a SENSOR from which the analysis continues)"
 )
+# Share of ERROR that iterations of the corrector may leave.
+CORRECTED = 0.02
+# Whether systems of all steps are solved to round-off.
+EXACT = False
 # Increments below this share of what the workspace holds, over the number, are round-off.
 ROUND_OFF = 1e-13
 # What acts out of a plane is round-off below this share of what acts in it.
@@ -61,13 +64,14 @@ class LeftPlane(Exception):
 
 class Along(NamedTuple):
     """Derivatives of the record (np, nt, nw + n_out), and what they may be off by (np,), as a share
-    of the largest place or velocity; not-a-number where nothing is known; events whose time has no
-    derivative.
+    of the largest place or velocity; events whose time has no derivative;
+    ``matrices``: how many were made along steps of GSTIFF.
     """
 
     record: np.ndarray
     errors: np.ndarray
     grazed: int
+    matrices: int
 
 
 class Ready(Exception):
@@ -196,6 +200,7 @@ def followed(system: System, method: str, found: Iterable[Direction]) -> Along:
     count, w = collected.record.count, 2 * system.n + system.ns
     size = system.nw + system.sizes.n_out
     made = Forward.zeros()
+    made.exact, made.limit = EXACT, CORRECTED * system.settings.error
     made.width, made.room = w, max(room(w), 8 * w + 3 * (system.nz + system.holonomic))
     history = np.zeros((count, made.room))
     history[:, :w] = collected.start
@@ -206,6 +211,9 @@ def followed(system: System, method: str, found: Iterable[Direction]) -> Along:
         "floor": np.array([ROUND_OFF * reach / each.size for each in found] + [0.0]),
         "stages": np.zeros(3 * system.W.size), "guard": np.zeros(system.W.size),
         "spent": np.zeros(2 * count), "top": np.zeros(2 * count),
+        "slope": np.full(2 * count, 1.0), "when": np.zeros(KEPT), "share": np.zeros(KEPT),
+        "kept": np.zeros(KEPT * count * (system.m + system.nv) + 1),
+        "v": np.zeros(system.n), "mu": np.zeros(system.holonomic + 1),
         "rate": np.zeros(w), "jump": np.zeros(w),
         "record": np.zeros(count * len(system.times) * size + 1),
     }  # fmt: skip
@@ -220,9 +228,13 @@ def followed(system: System, method: str, found: Iterable[Direction]) -> Along:
         raise UsageError("derivatives are not determined where the equations are singular")
     if _driven_out(system, collected, found):
         raise LeftPlane
-    shares = made.spent / np.maximum(made.top, TINY)
-    known = shares.reshape(count, 2).max(axis=1) if ESTIMATED[method] else np.full(count, np.nan)
-    return Along(made.record[:-1].reshape(count, len(system.times), size), known, made.grazed)
+    least = np.repeat(made.floor[:-1], 2)
+    shares = made.spent / np.maximum(made.top, np.maximum(least, TINY))
+    known = shares.reshape(count, 2).max(axis=1)
+    return Along(
+        made.record[:-1].reshape(count, len(system.times), size), known, made.grazed,
+        made.matrices,
+    )  # fmt: skip
 
 
 def _starts_out(system: System, found: list[Direction], reach: float) -> bool:

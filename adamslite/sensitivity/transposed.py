@@ -12,7 +12,7 @@ from adamslite.integrators.motion_equations import jacobian, track
 from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.stages import put_stage
 from adamslite.native.translate import Reals, copy, native
-from adamslite.sensitivity.differences import matrix
+from adamslite.sensitivity.corrector import matrix
 from adamslite.sensitivity.rates import take_state
 
 ENTRY = "adamslite.sensitivity.transposed.transposed"
