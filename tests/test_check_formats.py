@@ -67,6 +67,7 @@ def test_json_has_every_field_and_every_place(check) -> None:
         "file": "a deck.adm",
         "span": (span := {"line": 4, "column": 1, "end_line": 4, "end_column": 1 + len(line)}),
         "source_line": line,
+        "source_column": 1,
         "places": [{"file": "a deck.adm"} | span],
         "related": [],
         "fixes": [],

@@ -15,8 +15,9 @@ import tracemalloc
 import pytest
 
 import adamslite as al
+from adamslite.deck.redefinition import MergedSpans
 from adamslite.kernels.groups import compact
-from adamslite.language.diagnostics import MergedSpans, Source, Spans
+from adamslite.language.diagnostics import Source, Spans
 
 MASSES = 1000
 READ, READING, BOUND = 1250, 2250, 300

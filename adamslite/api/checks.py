@@ -19,7 +19,7 @@ from adamslite.checks import rules
 from adamslite.checks.runs import without_run
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command
-from adamslite.language.diagnostics import DeckError, Diagnostic, render
+from adamslite.language.diagnostics import DeckError, Diagnostic, limited, render
 from adamslite.language.messages.ignoring import without_ignored
 from adamslite.variation.decks import as_read
 
@@ -45,7 +45,7 @@ class Check(list[Diagnostic]):
         commands: Sequence[Command] = (),
         title: str = "",
     ) -> None:
-        super().__init__(messages)
+        super().__init__(limited(messages))
         self.deck, self.commands, self.title = deck, commands, title
 
     @property

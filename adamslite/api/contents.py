@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command
-from adamslite.language.diagnostics import Diagnostic
+from adamslite.language.diagnostics import SEVERITIES, Diagnostic, numbers_of
 
 
 def contents(deck: Deck, commands: Sequence[Command]) -> list[str]:
@@ -22,8 +22,8 @@ def contents(deck: Deck, commands: Sequence[Command]) -> list[str]:
 
 def counted(diagnostics: Iterable[Diagnostic], always: Sequence[str] = ()) -> str:
     """How many there are of each severity; those of `always` also where there are none."""
-    found = Counter(each.severity for each in diagnostics)
-    kinds = [each for each in ("error", "warning", "note") if found[each] or each in always]
+    found = dict(zip(SEVERITIES, numbers_of(diagnostics), strict=True))
+    kinds = [each for each in SEVERITIES if found[each] or each in always]
     return ", ".join(many(found[each], each) for each in kinds)
 
 

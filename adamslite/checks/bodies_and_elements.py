@@ -67,7 +67,8 @@ def _is_ground(deck: Deck, body: Body | None) -> bool:
 def a_ground(deck: Deck) -> Iterator[Diagnostic]:
     if not any(part.ground for part in deck.of(Part)):
         source = deck.source
-        yield compose("no-ground", source.span(0, len(source.line(1))), source.line(1))
+        span = source.span(0, len(source.line(1)))
+        yield compose("no-ground", span, source.quote(span))
 
 
 def second_grounds(deck: Deck) -> Iterator[Diagnostic]:

@@ -148,7 +148,7 @@ def _warning(force: Vforce, field: str, body: str, mass: float, slope: Node) -> 
     warning = compose(
         "effective-mass",
         span,
-        spans.first_line(span),
+        spans.quote(span),
         label=force.label,
         body=body,
         axis=field[1],

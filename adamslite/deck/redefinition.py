@@ -2,16 +2,52 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Generic, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeAlias
 
-from adamslite.language.diagnostics import MergedSpans
+from adamslite.language.diagnostics import Spans
 from adamslite.language.statement import S, Statement
 
 if TYPE_CHECKING:
-    from adamslite.language.diagnostics import Span, Spans
+    from adamslite.language.diagnostics import Span
     from adamslite.language.interfaces import Key
+
+
+class MergedSpans(Spans):
+    """The places of a statement that a later one changed: each argument where it stands last.
+
+    Parameters
+    ----------
+    older, newer : Spans
+        The statement itself is where ``older`` has it, unless that is nowhere.
+    dropped : collection of str
+        Fields of ``older`` that no longer count.
+    """
+
+    __slots__ = ("parts",)
+    kept: ClassVar[tuple[str, ...]] = (*Spans.kept, *__slots__)
+
+    def __init__(self, older: Spans, newer: Spans, dropped: Collection[str]) -> None:
+        whole = older if older.source else newer
+        super().__init__(whole.source, whole.whole_range)
+        kept = {field: older.home(field) for field in older if field not in dropped}
+        self.parts = kept | {field: newer.home(field) for field in newer}
+
+    def home(self, field: str) -> Spans:
+        return self.parts.get(field, self)
+
+    def __getitem__(self, field: str) -> Span:
+        return self.parts[field][field]
+
+    def __contains__(self, field: object) -> bool:
+        return field in self.parts
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.parts)
+
+    def __len__(self) -> int:
+        return len(self.parts)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -53,8 +53,7 @@ def _at(
     statement: Owner, code: str, field: str, span: Span, hint: str, words: Mapping[str, object]
 ) -> Diagnostic:
     spans = statement.spans.home(field)
-    line = spans.first_line(span)
-    message = compose(code, span, line, hint, label=statement.label, **words)
+    message = compose(code, span, spans.quote(span), hint, label=statement.label, **words)
     if code in NEEDLESS and field in spans and spans.source:
         found = left_out(spans.source, *spans.ranges[field])
         return replace(message, fixes=(found,)) if found else message

@@ -172,10 +172,10 @@ class Rereading(Reading):
             self._statements[key] = known
             self.uses.append((start, known.uses))
             return self._copied(known, start, end)
-        said, errors = len(self.log.diagnostics), self.log.errors
+        said, errors = self.log.count, self.log.errors
         self.resolver.calls_user, before = False, self.resolver.calls_user
         statement = self._read(entry, reader)
-        healthy = (said, errors) == (len(self.log.diagnostics), self.log.errors)
+        healthy = (said, errors) == (self.log.count, self.log.errors)
         if healthy and isinstance(statement, Statement) and not self.resolver.calls_user:
             ranges = {f: (a - start, b - start) for f, (a, b) in statement.spans.ranges.items()}
             uses = self.uses[-1][1]

@@ -7,7 +7,7 @@ All of them are collected and raised once, as :class:`DeckError`.
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
 from struct import Struct, pack
@@ -16,6 +16,16 @@ from typing import Any, ClassVar, NamedTuple
 ERROR = "error"
 WARNING = "warning"
 NOTE = "note"
+SEVERITIES = (ERROR, WARNING, NOTE)
+
+MOST = 200
+"""Messages that are kept of a text; one more says how many there are besides."""
+QUOTED = 200
+"""Characters of a line that a message quotes, at most."""
+BEFORE = 80
+"""And how many of them stand before the place of the message."""
+CUT = "\N{HORIZONTAL ELLIPSIS}"
+"""What stands for the rest of a line."""
 
 PAIR = Struct("<II")
 """First and last offset of something written."""
@@ -37,6 +47,16 @@ class Span:
 
 
 NOWHERE = Span("", 0, 0, 0, 0)
+
+
+class Quote(NamedTuple):
+    """What a message quotes of a line, and the column that its first character has there."""
+
+    text: str = ""
+    column: int = 1
+
+
+NO_QUOTE = Quote()
 
 
 class Source:
@@ -73,9 +93,25 @@ class Source:
         """The text of line ``number`` (from 1), without its end."""
         if not 1 <= number <= len(self.starts):
             return ""
-        start = self.starts[number - 1]
-        end = self.text.find("\n", start)
-        return self.text[start : end if end >= 0 else len(self.text)].rstrip("\r")
+        return self.text[self.starts[number - 1] : self._end(number)].rstrip("\r")
+
+    def _end(self, number: int) -> int:
+        """Offset of the end of line ``number`` (from 1)."""
+        return self.starts[number] - 1 if number < len(self.starts) else len(self.text)
+
+    def quote(self, span: Span) -> Quote:
+        """What there is to quote of the line that a span begins on: all of it, or what is round
+        the beginning of the span.
+        """
+        if not 1 <= span.line <= len(self.starts):
+            return NO_QUOTE
+        first, last = self.starts[span.line - 1], self._end(span.line)
+        start = max(first, min(first + span.column - 1 - BEFORE, last - QUOTED))
+        end = min(last, start + QUOTED)
+        text = self.text[start:end]
+        text = CUT + text[1:] if start > first else text
+        text = text[:-1] + CUT if end < last else text
+        return Quote(text, start - first + 1)
 
 
 class Spans(Mapping[str, Span]):
@@ -130,9 +166,9 @@ class Spans(Mapping[str, Span]):
         """The places, all in one source, that ``field`` is among."""
         return self
 
-    def first_line(self, span: Span) -> str:
-        """The line of the source on which a span begins; empty where there is no source."""
-        return self.source.line(span.line) if self.source else ""
+    def quote(self, span: Span) -> Quote:
+        """What there is to quote of a span; nothing where there is no source."""
+        return self.source.quote(span) if self.source else NO_QUOTE
 
     def text(self, field: str) -> str:
         """An argument as written, with its keyword; empty where there is no source."""
@@ -166,42 +202,6 @@ def _restored(kind: type[Spans], *values: object) -> Spans:
     for name, value in zip(kind.kept, values, strict=True):
         setattr(made, name, value)
     return made
-
-
-class MergedSpans(Spans):
-    """The places of a statement that a later one changed: each argument where it stands last.
-
-    Parameters
-    ----------
-    older, newer : Spans
-        The statement itself is where ``older`` has it, unless that is nowhere.
-    dropped : collection of str
-        Fields of ``older`` that no longer count.
-    """
-
-    __slots__ = ("parts",)
-    kept: ClassVar[tuple[str, ...]] = (*Spans.kept, *__slots__)
-
-    def __init__(self, older: Spans, newer: Spans, dropped: Collection[str]) -> None:
-        whole = older if older.source else newer
-        super().__init__(whole.source, whole.whole_range)
-        kept = {field: older.home(field) for field in older if field not in dropped}
-        self.parts = kept | {field: newer.home(field) for field in newer}
-
-    def home(self, field: str) -> Spans:
-        return self.parts.get(field, self)
-
-    def __getitem__(self, field: str) -> Span:
-        return self.parts[field][field]
-
-    def __contains__(self, field: object) -> bool:
-        return field in self.parts
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.parts)
-
-    def __len__(self) -> int:
-        return len(self.parts)
 
 
 class Related(NamedTuple):
@@ -243,7 +243,10 @@ class Diagnostic:
     hint : str
         What to do about it; may be empty.
     source_line : str
-        The line of the deck the span begins on; may be empty.
+        The line of the deck the span begins on; may be empty.  Of a line of more than 200
+        characters those round the place, with an ellipsis for the others.
+    source_column : int
+        The column of its first character.
     places : tuple of Span
         Everywhere it applies, ``span`` first; empty unless the text tells several places once.
     related : tuple of Related
@@ -258,6 +261,7 @@ class Diagnostic:
     span: Span = NOWHERE
     hint: str = ""
     source_line: str = ""
+    source_column: int = 1
     places: tuple[Span, ...] = ()
     related: tuple[Related, ...] = ()
     fixes: tuple[Fix, ...] = ()
@@ -283,17 +287,66 @@ class Diagnostic:
 
     def _marked_line(self) -> list[str]:
         text = self.source_line.expandtabs(1)
-        start = self.span.column
-        end = self.span.end_column if self.span.end_line == self.span.line else len(text) + 1
+        start = self.span.column - self.source_column + 1
+        width = self.span.end_column - self.span.column
+        end = start + width if self.span.end_line == self.span.line else len(text) + 1
         number = str(self.span.line)
         carets = "^" * max(1, min(end, len(text) + 1) - start)
         return [f"  {number} | {text}", f"  {' ' * len(number)} | {' ' * (start - 1)}{carets}"]
 
 
+@dataclass(frozen=True, slots=True)
+class LeftOut(Diagnostic):
+    """The last of many messages: how many there are besides.
+
+    Parameters
+    ----------
+    numbers : tuple of int
+        For each of :data:`SEVERITIES`.
+    """
+
+    numbers: tuple[int, ...] = (0,) * len(SEVERITIES)
+
+    @classmethod
+    def of(cls, numbers: Iterable[int]) -> LeftOut:
+        """The message about so many errors, warnings and notes."""
+        found = tuple(numbers)
+        named = [(n, kind) for n, kind in zip(found, SEVERITIES, strict=True) if n]
+        listed = ", ".join(f"{n} {kind}{'s' * (n != 1)}" for n, kind in named)
+        sentence = f"there is more to say than the {MOST} messages that are kept: {listed}"
+        hint = "correct what comes first, and check again"
+        return cls("more-messages", named[0][1], sentence, hint=hint, numbers=found)
+
+
+def numbers_of(diagnostics: Iterable[Diagnostic]) -> tuple[int, ...]:
+    """How many errors, warnings and notes there are, with those that are left out."""
+    found = [0] * len(SEVERITIES)
+    for each in diagnostics:
+        if isinstance(each, LeftOut):
+            found = [a + b for a, b in zip(found, each.numbers, strict=True)]
+        else:
+            found[SEVERITIES.index(each.severity)] += 1
+    return tuple(found)
+
+
+def limited(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
+    """At most :data:`MOST` of the messages, in their order, errors rather than warnings and these
+    rather than notes; and one more that says how many there are besides.
+    """
+    every = list(diagnostics)
+    own = [each for each in every if not isinstance(each, LeftOut)]
+    if len(own) <= MOST and len(own) == len(every):
+        return own
+    by_weight = sorted(range(len(own)), key=lambda n: SEVERITIES.index(own[n].severity))
+    kept = [own[n] for n in sorted(by_weight[:MOST])]
+    left = [a - b for a, b in zip(numbers_of(every), numbers_of(kept), strict=True)]
+    return [*kept, LeftOut.of(left)]
+
+
 def sort_by_place(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
-    """In the order of the deck, the same message at the same place once."""
+    """In the order of the deck, the same message at the same place once; at most so many."""
     unique = dict.fromkeys(diagnostics)
-    return sorted(unique, key=lambda d: (d.span.file, d.span.line, d.span.column))
+    return limited(sorted(unique, key=lambda d: (d.span.file, d.span.line, d.span.column)))
 
 
 def render(diagnostics: Iterable[Diagnostic]) -> str:
@@ -321,5 +374,5 @@ class DeckError(Exception):
 
     def _render_traceback_(self) -> list[str]:
         """What a notebook prints: the messages, without the way through this package."""
-        count = len(self.errors)
+        count = numbers_of(self.diagnostics)[0]
         return [f"{type(self).__name__}: {count} mistake{'s' * (count > 1)}", "", str(self)]

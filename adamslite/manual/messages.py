@@ -30,6 +30,9 @@ def message(code: str, each: Message) -> str:
     text = f"{each.severity}: {each.sentence}"
     if each.hint:
         text += f"  \nhint: {each.hint}"
-    example = each.deck + (each.broken or each.commands)[0].rstrip("\n")
+    examples = each.broken or each.commands
+    if not examples:  # it takes too many lines
+        return f"## `{code}`\n\n{text}\n"
+    example = each.deck + examples[0].rstrip("\n")
     bound = f'\n\nwith `--user "{each.user[0]}"`' if each.user else ""
     return f"## `{code}`\n\n{text}\n\n```\n{example}\n```{bound}\n"

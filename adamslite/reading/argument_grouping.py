@@ -11,7 +11,6 @@ from typing import NamedTuple
 
 from adamslite.language.abbreviations import Ambiguous, vocabulary
 from adamslite.language.diagnostics import Spans
-from adamslite.language.likeness import did_you_mean
 from adamslite.language.messages import Log
 from adamslite.language.messages.fixes import fix
 from adamslite.language.spelling import spelled
@@ -249,7 +248,9 @@ class Grouping:
         else:
             table = self.words.valued if valued else self.words.bare
             others = self.words.bare if valued else self.words.valued
-            hint = did_you_mean(word, table) or did_you_mean(word, others)
+            keyword, meant = self.cls.keyword, self.log.guesses.meant
+            hint = meant(word, f"{keyword} {valued}", lambda: table)
+            hint = hint or meant(word, f"{keyword} {not valued}", lambda: others)
             self.unknown_flag = self.unknown_flag or not valued
             if not valued:
                 homes = [c.keyword for c in STATEMENTS.values() if word in vocabulary(c).bare]

@@ -11,7 +11,6 @@ from adamslite.deck.names import Names, to_number
 from adamslite.language.abbreviations import match
 from adamslite.language.expression import Node
 from adamslite.language.interfaces import Key
-from adamslite.language.likeness import did_you_mean
 from adamslite.language.messages import Log
 from adamslite.language.routines import ARGUMENT as ROUTINE_ARGUMENT
 from adamslite.language.routines import is_user_call
@@ -204,7 +203,8 @@ class ValueReader:
         if not isinstance(found, str):
             self._refuse(
                 "unknown-choice", tokens, word=argument.key, text=self._written(tokens),
-                known=", ".join(argument.options), hint=did_you_mean(word, argument.options),
+                known=", ".join(argument.options),
+                hint=self.log.guesses.meant(word, argument.key, lambda: argument.options),
             )  # fmt: skip
         return found
 

@@ -13,7 +13,6 @@ from adamslite.deck.names import RESERVED, Names
 from adamslite.language.expression import Call, Node, Num, Ref
 from adamslite.language.function import FUNCTIONS, Function
 from adamslite.language.interfaces import Key
-from adamslite.language.likeness import did_you_mean
 from adamslite.language.messages import Log
 from adamslite.language.not_supported import FUNCTIONS as PLANNED
 from adamslite.language.spelling import spelled
@@ -63,9 +62,11 @@ class ExpressionNames:
         if word in FUNCTIONS:
             hint = f"{word} is a function: write {FUNCTIONS[word].usage}"
         else:
-            known = [*RESERVED, *self.constants, *self.names.known("VARIABLE")]
-            hint = did_you_mean(word, known)
+            hint = self.log.guesses.meant(word, "value", self._known_names)
         self._refuse("unknown-name", self.tokens[at], word=self.tokens[at][1], hint=hint)
+
+    def _known_names(self) -> list[str]:
+        return [*RESERVED, *self.constants, *self.names.known("VARIABLE")]
 
     def _reference(self, function: Function, kind: str, branch: Tree) -> Ref:
         rule, first = branch[0], branch[1]
@@ -106,7 +107,7 @@ class ExpressionNames:
         elif name == "D":
             hint = "the time derivative of a VARIABLE is written VARVAL(d(name)/dt)"
         else:
-            hint = did_you_mean(name, [*FUNCTIONS, *PLANNED])
+            hint = self.log.guesses.meant(name, "function", lambda: [*FUNCTIONS, *PLANNED])
         self._refuse("unknown-function", token, word=token[1], hint=hint)
 
     def _ambiguous(self, kind: str, at: int, found: list[Key]) -> NoReturn:

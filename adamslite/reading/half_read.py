@@ -17,7 +17,7 @@ from adamslite.language.diagnostics import Diagnostic, Span
 from adamslite.language.statement import Statement
 
 # Statements that rules are asked about, all decks together: a large deck is asked less often.
-MOST = 1_000_000
+MOST = 50_000
 
 
 class Unread(Exception):

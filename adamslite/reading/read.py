@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import chain
 from pathlib import Path
 
 from adamslite.checks.inert import note_of_inert, untouched
@@ -102,13 +103,14 @@ def commands_of(source: Source, deck: Deck, path: Path | None = None) -> Command
     commands = Commands(bound(read, reading, deck.user, deck))
     plain = tuple(each for each in commands if isinstance(each, Statement))
     run = Deck(reading.log.source, "", plain, deck.names, path)
-    reading.log.diagnostics += [
+    for each in (
         *without_ignored(deck.source, _caused(deck, commands)),
         *inputs_with_rates(deck, plain),
         *names_of_files(deck, plain),
         *determined_at_rest(deck, plain),
         *note_of_inert(untouched(deck, commands)),
-    ]
+    ):
+        reading.log.take(each)
     found = _judged(run, reading, RUN_RULES, deck)
     named = [each.output_prefix or "" for each in plain if isinstance(each, File)]
     commands.source = reading.log.source
@@ -147,9 +149,9 @@ def _judged(
     ``named``: the deck that has the statements which messages name.
     """
     deck.incomplete |= reading.broken
-    said = [*reading.log.finish(), *apply(rules, deck)]
-    said += further_mistakes(reading.half_read, rules, deck)
-    diagnostics = with_named(named, said)
+    for each in chain(apply(rules, deck), further_mistakes(reading.half_read, rules, deck)):
+        reading.log.take(each)
+    diagnostics = with_named(named, reading.log.finish())
     if any(diagnostic.is_error for diagnostic in diagnostics):
         raise DeckError(judged(deck.source, diagnostics, complete=False), deck)
     return tuple(diagnostics)

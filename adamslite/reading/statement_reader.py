@@ -14,10 +14,9 @@ from adamslite.deck.names import Names
 from adamslite.deck.redefinition import Command, Redefinition
 from adamslite.elements.part import Part
 from adamslite.language.abbreviations import PREFERRED, Ambiguous, match, vocabulary
-from adamslite.language.diagnostics import Source, Spans
+from adamslite.language.diagnostics import MOST, Source, Spans
 from adamslite.language.file_name import is_file_name
 from adamslite.language.interfaces import Key
-from adamslite.language.likeness import did_you_mean
 from adamslite.language.messages import Log
 from adamslite.language.not_supported import COMMANDS as PLANNED_COMMANDS
 from adamslite.language.not_supported import STATEMENTS as PLANNED_STATEMENTS
@@ -206,7 +205,7 @@ class Reading:
         return self.place == "command" and cls.place == "deck"
 
     def _unknown(self, syntax: Syntax, place: tuple[int, int]) -> None:
-        hint = did_you_mean(syntax.keyword, self._table)
+        hint = self.log.guesses.meant(syntax.keyword, "", lambda: self._table)
         self.log.add("unknown-statement", *place, word=syntax.tokens[0][1], hint=hint)
         for keyword in hint.strip("?").split():
             if keyword in STATEMENTS:
@@ -364,16 +363,16 @@ class Reading:
         if fitted:
             return fitted
         syntax = waiting.syntax
-        errors, messages = self.log.errors, len(self.log.diagnostics)
+        errors, messages = self.log.errors, self.log.count
         items = syntax.items if cls.singleton else syntax.items[1:]
         read = read_arguments(cls, syntax, items, reader, entry.label, entry.changes)
         spans = Spans(self.log.source, syntax.range, read.ranges)
         if self.log.errors != errors or entry.again or not syntax.whole:
             self.broken.add(cls.keyword)
-            if not (entry.again or entry.changes):
+            if not (entry.again or entry.changes or len(self.half_read) >= MOST):
                 fields = self._fields(entry, Read(read.values, spans))
                 self.half_read.append(half_read(cls, fields, read.unread))
             return None
-        if common and messages == len(self.log.diagnostics) and patterns.wanted(key):
+        if common and messages == self.log.count and patterns.wanted(key):
             patterns.learn(key, syntax.tokens, read.found, read.values)
         return Read(read.values, spans)

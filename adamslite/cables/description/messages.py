@@ -312,9 +312,9 @@ class Faults:
         at = within if isinstance(within, tuple) else ("", 0)
         message, span = MESSAGES[code], self.places.span(self._written(path), at)
         hint = str(words.pop("hint", "") or message.hint.format(**words))
-        line = self.places.source.line(span.line)
+        line, column = self.places.source.quote(span)
         text = message.sentence.format(**words)
-        self.found.append(Diagnostic(code, message.severity, text, span, hint, line))
+        self.found.append(Diagnostic(code, message.severity, text, span, hint, line, column))
 
     def _written(self, path: Path) -> Path:
         """The same key of the table that describes a station or the cable."""

@@ -67,6 +67,7 @@ def _data(each: Diagnostic) -> dict[str, Any]:
         "file": each.span.file,
         "span": _span(each.span),
         "source_line": each.source_line,
+        "source_column": each.source_column,
         "places": [_place(place) for place in each.everywhere],
         "related": [{"message": text} | _place(place) for place, text in each.related],
         "fixes": [

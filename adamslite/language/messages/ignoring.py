@@ -111,8 +111,10 @@ def _kept(
         return None
     if kept[0] == diagnostic.span:
         return replace(diagnostic, places=tuple(kept)) if diagnostic.places else diagnostic
-    line = source.line(kept[0].line)
-    return replace(diagnostic, span=kept[0], places=tuple(kept), source_line=line)
+    line, column = source.quote(kept[0])
+    return replace(
+        diagnostic, span=kept[0], places=tuple(kept), source_line=line, source_column=column
+    )
 
 
 def _lines(source: Source, code: str, place: Span) -> Iterator[tuple[str, int]]:
@@ -132,5 +134,5 @@ def _meant(code: str) -> str:
 
 def _about(source: Source, each: Ignored, code: str, hint: str = "") -> Diagnostic:
     span = source.span(each.start, each.end)
-    found = compose(code, span, source.line(span.line), hint, word=each.code or "code")
+    found = compose(code, span, source.quote(span), hint, word=each.code or "code")
     return replace(found, fixes=fixes(code, source, each.start, each.end, hint))

@@ -6,6 +6,10 @@ from adamslite.language.diagnostics import NOTE, WARNING
 from adamslite.language.messages.entry import Message
 
 STATEMENTS: dict[str, Message] = {
+    "more-messages": Message(
+        "there is more to say than the {most} messages that are kept: {listed}",
+        "correct what comes first, and check again",
+    ),
     "missing-title": Message(
         "the deck begins with {word} instead of a title; it is read as a statement",
         "put a title line above it: ADAMS takes the first line as the title and does not read it",

@@ -1,0 +1,137 @@
+"""Texts that no author writes are read as fast as others, and few messages say what is wrong.
+
+What grows is counted: bytes, comparisons, messages; never seconds.
+"""
+
+import gc
+import tracemalloc
+
+import pytest
+
+import adamslite as al
+from adamslite.language import likeness
+from adamslite.language.diagnostics import MOST, QUOTED, LeftOut, limited
+from adamslite.language.likeness import did_you_mean
+from adamslite.language.messages import MESSAGES
+from benchmarks.hostile_texts import BODIES, KINDS
+
+DECK = f"{BODIES}! what follows is wrong\n"
+DEGREES = "PART=2, QP=1D,0,0"
+"""Arguments of a MARKER with a warning."""
+
+
+def told(text):
+    """Everything there is to say about a text."""
+    return al.check(text + "\n")
+
+
+def most_memory(kind, size):
+    """Bytes that checking so much hostile text in one line takes at most."""
+    text = KINDS[kind].text(size, many=False)
+    gc.collect()
+    tracemalloc.start()
+    try:
+        told(text)
+        return tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+
+
+# ---- few messages --------------------------------------------------------------------------------
+
+
+def test_two_hundred_messages_are_kept_and_the_last_one_counts_the_others():
+    found = told(DECK + "ZZZ/1\n" * 1000)
+    assert len(found) == MOST + 1 and isinstance(found[-1], LeftOut)
+    assert [each.span.line for each in found[:-1]] == list(range(7, 7 + MOST))
+    assert found[-1].numbers == (1000 - MOST, 0, 0) and found[-1].is_error
+    assert found[-1].message.endswith(f": {1000 - MOST} errors")
+    assert found.counts == "1000 errors, 0 warnings"
+    assert found[-1].message == MESSAGES["more-messages"].sentence.format(
+        most=MOST, listed="800 errors"
+    )
+
+
+def test_an_error_is_kept_behind_any_number_of_warnings():
+    found = told(DECK + "".join(f"MARKER/{n}, {DEGREES}\n" for n in range(3, 800)) + "ZZZ/1\n")
+    assert "unknown-statement" in [each.code for each in found]
+    assert len(found) == MOST + 1 and found[-1].severity == "warning"
+
+
+def test_what_comments_ignore_takes_the_place_of_nothing():
+    """300 warnings that the author has judged stand before the one that he has not."""
+    code = "degrees-of-no-angle"
+    judged = "".join(f"MARKER/{n}, {DEGREES} ! adamslite: ignore {code}\n" for n in range(3, 303))
+    deck = f"{DECK}{judged}MARKER/999, {DEGREES}\n"
+    lines = [each.span.line for each in told(deck) if each.code == code]
+    assert lines == [deck.count("\n")]
+
+
+def test_messages_are_left_out_once_and_counted_together():
+    one, other = (told(DECK + "ZZZ/1\n" * n) for n in (300, 400))
+    both = limited([*one, *other])
+    assert len(both) == MOST + 1 and both[-1].numbers == (500, 0, 0)
+
+
+# ---- short messages ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("before", [0, 1, 79, 80, 81, 120, 199, 200, 5000])
+@pytest.mark.parametrize("behind", [0, 1, 119, 120, 121, 5000])
+def test_a_long_line_is_quoted_round_the_place(before, behind):
+    line = f"PART/3, {' ' * before}ZZZ=1{' ' * behind}!"
+    found = next(each for each in told(DECK + line) if each.code == "unknown-argument")
+    assert len(found.source_line) <= QUOTED
+    assert len(found.source_line) == min(QUOTED, len(line))
+    start = found.span.column - found.source_column
+    assert found.source_line[start : start + 3] == "ZZZ"
+    quoted, carets = found.render().splitlines()[1:3]
+    assert quoted[carets.index("^") :].startswith("ZZZ") and carets.count("^") == 3
+
+
+def test_a_word_of_any_length_is_cut():
+    found = told(DECK + f"{'A' * 100_000}/1\n{'B' * 100_000}/2, {'C' * 100_000}=1")
+    assert all(len(each.render()) < 2500 for each in found)
+
+
+# ---- little memory -------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "kind",
+    ["unknown arguments", "unknown statements", "exclamation marks", "UTF-16", "the same argument"],
+)
+def test_memory_grows_as_the_text_does(kind):
+    most_memory(kind, 4_000)  # imports
+    small, large = most_memory(kind, 40_000), most_memory(kind, 160_000)
+    assert large < 6 * small
+
+
+def test_blank_and_comment_lines_take_no_memory_of_their_own():
+    text = "hostile\n" + "!\n" * 100_000 + "PART/1, GROUND\n"
+    tracemalloc.start()
+    try:
+        al.check(text)
+        assert tracemalloc.get_traced_memory()[1] < 60 * len(text)
+    finally:
+        tracemalloc.stop()
+
+
+# ---- few guesses ---------------------------------------------------------------------------------
+
+
+def test_guesses_about_one_text_are_bounded(monkeypatch):
+    made = []
+    monkeypatch.setattr(
+        likeness, "did_you_mean", lambda word, listed: made.append(len(listed)) or ""
+    )
+    names = "".join(f"MARKER/some{n}name, PART=2\n" for n in range(900))
+    told(DECK + names + "".join(f"REQUEST/{n}, F2=DX(other{n}, 1)\n" for n in range(1, 900)))
+    assert 0 < sum(made) < likeness.BUDGET + 1000
+
+
+def test_one_wrong_letter_is_found_among_many_names():
+    names = [f"left_bogie_wheel_{n}" for n in range(20_000)]
+    for word in ("left_bogie_wheel_777x", "left_bogie_wheel_x77", "left_bogie_hweel_777"):
+        assert "LEFT_BOGIE_WHEEL_" in did_you_mean(word, names)
+    assert did_you_mean("right_bogie_777", names) == ""
