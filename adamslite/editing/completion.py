@@ -11,9 +11,9 @@ from adamslite.editing.outline import statements
 from adamslite.language.abbreviations import PREFERRED, match, vocabulary
 from adamslite.language.function import FUNCTIONS
 from adamslite.language.messages import MESSAGES
-from adamslite.language.messages.ignoring import COMMENT
 from adamslite.language.spelling import spelled
 from adamslite.language.statement import Argument, Statement
+from adamslite.language.text import COMMENT
 from adamslite.reading.statement_reader import known_keywords
 from adamslite.syntax.tokens import CLOSES, Lexeme
 

@@ -9,9 +9,9 @@ from adamslite.editing.outline import Written
 from adamslite.language.abbreviations import Ambiguous, vocabulary
 from adamslite.language.function import FUNCTIONS
 from adamslite.language.messages import MESSAGES
-from adamslite.language.messages.ignoring import COMMENT
 from adamslite.language.spelling import spelled
 from adamslite.language.statement import Argument
+from adamslite.language.text import COMMENT
 from adamslite.manual.functions import function as function_page
 from adamslite.manual.messages import message
 from adamslite.manual.statements import argument

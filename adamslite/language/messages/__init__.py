@@ -43,6 +43,7 @@ from adamslite.language.messages.statements import STATEMENTS
 from adamslite.language.messages.systems import SYSTEMS
 from adamslite.language.messages.tables import TABLES
 from adamslite.language.not_supported import INSTEAD
+from adamslite.language.text import ignored
 from adamslite.notation import shown
 
 MESSAGES: dict[str, Message] = (
@@ -191,10 +192,6 @@ class Log:
     @cached_property
     def _ignored(self) -> set[tuple[str, int]]:
         """Codes that comments ignore, with their lines."""
-        if "adamslite:" not in self.source.text.lower():
-            return set()
-        from adamslite.language.messages.ignoring import ignored
-
         return {(each.code, each.line) for each in ignored(self.source)}
 
     def take(self, diagnostic: Diagnostic) -> None:

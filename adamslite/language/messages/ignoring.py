@@ -5,50 +5,19 @@ A comment works on the statement or argument that is on its own line.  It never 
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import cache
-from typing import NamedTuple
 
 from adamslite.language.diagnostics import ERROR, Diagnostic, Source, Span
 from adamslite.language.likeness import did_you_mean
 from adamslite.language.messages import MESSAGES, compose
 from adamslite.language.messages.fixes import fixes
 from adamslite.language.messages.needless import NEEDLESS
+from adamslite.language.text import Ignored, ignored
 
-COMMENT = re.compile(r"adamslite:[ \t]*ignore\b([^\n]*)", re.IGNORECASE)
-CODES = re.compile(r"[ \t]*[\w-]+(?:[ \t]*,[ \t]*[\w-]+)*")
 # What is known only when deck and commands have been read, or is told by `check` alone.
 WHOLE = ("no-run", *NEEDLESS)
-CODE = re.compile(r"[\w-]+")
-
-
-class Ignored(NamedTuple):
-    """A code on a line of the source, and where the comment names it."""
-
-    code: str
-    line: int
-    start: int
-    end: int
-
-
-def ignored(source: Source) -> Iterator[Ignored]:
-    """The codes that comments of a source name; text after the list of codes is a reason.
-
-    The code is empty where a comment names none.
-    """
-    for comment in COMMENT.finditer(source.text):
-        before = source.text[source.text.rfind("\n", 0, comment.start()) + 1 : comment.start()]
-        if "!" not in before or not before.rstrip().endswith(("!", "#")):
-            continue
-        start, end = comment.span(1)
-        line, _ = source.place(start)
-        codes = CODES.match(source.text, start, end)
-        if not codes:
-            yield Ignored("", line, *comment.span())
-        for word in CODE.finditer(source.text, start, codes.end()) if codes else ():
-            yield Ignored(word[0].lower(), line, *word.span())
 
 
 def without_ignored(source: Source, diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
