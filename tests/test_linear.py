@@ -143,7 +143,8 @@ def test_solve_writes_what_linear_found(tmp_path: Path, monkeypatch) -> None:
     assert names == [
         "o.acf", "o.adm", "plant.mat", "x.2.modes.csv", "x.csv", "x.modes.csv", "x.states.json",
     ]  # fmt: skip
-    assert json.loads(Path("plant.mat").read_text())["feedthrough"] == [[0.0], [0.5]]
+    feedthrough = json.loads(Path("plant.mat").read_text())["feedthrough"]
+    assert np.allclose(feedthrough, [[0.0], [0.5]], rtol=1e-14, atol=0.0)
     assert json.loads(Path("x.states.json").read_text())["inputs"] == []
 
 

@@ -111,11 +111,15 @@ def test_a_name_that_the_user_gives_may_be_a_link(folder) -> None:
     assert (folder.parent / "new.csv").read_text().startswith("# adamslite")
 
 
-def test_a_trap_for_the_draft_is_not_stepped_into(folder) -> None:
-    """Content is written to a draft first; a link in its place is not followed."""
+def test_a_trap_for_the_draft_is_not_stepped_into(folder, capsys, monkeypatch) -> None:
+    """Content is written to a draft first; a link in its place, whose name cannot be known
+    before, is not followed.
+    """
     commands(RUN)
-    Path(f".o.csv.{os.getpid()}.part").symlink_to("../precious")
-    assert main(["solve", "o.adm", "--quiet"]) == 0
+    monkeypatch.setattr(os, "urandom", bytes)
+    Path(".o.csv.00000000.part").symlink_to("../precious")
+    assert main(["solve", "o.adm", "--quiet"]) == 5
+    assert "'o.csv': File exists" in capsys.readouterr().err
     assert (folder.parent / "precious").read_text() == "precious\n"
 
 

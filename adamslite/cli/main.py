@@ -35,8 +35,8 @@ import sys
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from importlib import import_module
-from io import TextIOWrapper
-from typing import TypeAlias
+from io import BufferedWriter, FileIO, TextIOWrapper
+from typing import Any, TypeAlias
 
 from adamslite import __version__
 from adamslite.cli.commands.codes import BROKEN, DECK_ERRORS, DONE, IO_FAILED, STOPPED_EARLY, USAGE
@@ -98,14 +98,79 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line `argv` (default: of the process) and return the exit code."""
     own, argv = argv is None, sys.argv[1:] if argv is None else argv
     if own:
+        _open_streams()
         _write_every_letter()
         _take_one_thread()
         gc.set_threshold(GARBAGE)
     with notation(COMMAND_LINE):
         code = _run(argv, own)
     if own:
+        code = _end_output(code)
         gc.freeze()  # nothing is looked through while the process ends
     return code
+
+
+OUTPUT = "standard output"
+
+
+class _Output(FileIO):
+    """Standard output: a fault of the system names it."""
+
+    def write(self, data: Any) -> int:
+        """Write what can be written."""
+        try:
+            return super().write(data) or 0
+        except OSError as fault:
+            fault.filename = OUTPUT
+            raise
+
+
+class _Messages(FileIO):
+    """Standard error: a reader that has gone, or a disk that is full, ends no run."""
+
+    def write(self, data: Any) -> int:
+        """Write what can be written; the rest is lost."""
+        try:
+            return super().write(data) or 0
+        except OSError:
+            return len(data)
+
+
+def _open_streams() -> None:
+    """Let standard streams fail in a sentence, and those that were closed be there: a file opened
+    later would take their numbers, and get what is written to them.
+    """
+    if os.name != "posix":  # the console of Windows has a class of its own
+        return
+    # Who writes to a closed standard output is told so; nobody can be told of a standard error.
+    for number, mode in ((0, os.O_RDONLY), (1, os.O_RDONLY), (2, os.O_WRONLY)):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, mode)  # takes the first number that is free
+    if sys.stdout is None or isinstance(sys.stdout, TextIOWrapper):
+        sys.stdout = _stream(_Output(1, "w", closefd=False), sys.stdout, os.isatty(1))
+    if sys.stderr is None or isinstance(sys.stderr, TextIOWrapper):
+        sys.stderr = _stream(_Messages(2, "w", closefd=False), sys.stderr, True)
+
+
+def _stream(raw: FileIO, old: Any, by_line: bool) -> TextIOWrapper:
+    """A stream of text in the encoding of the old one, if there was one."""
+    encoding = old.encoding if old else "utf-8"
+    return TextIOWrapper(BufferedWriter(raw), encoding, line_buffering=by_line)
+
+
+def _end_output(code: int) -> int:
+    """Write what waits, so that a fault is noticed here and not while the process ends."""
+    try:
+        if sys.stdout is not None and not sys.stdout.closed:  # by a server that has served
+            sys.stdout.flush()
+        return code
+    except OSError as fault:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+        if code == DONE and not isinstance(fault, BrokenPipeError):
+            _explain(fault)
+        return code or IO_FAILED
 
 
 def _write_every_letter() -> None:
@@ -144,12 +209,8 @@ def _run(argv: Sequence[str], own: bool) -> int:
         return args.run(args)
     try:
         with _kept_modules(word) if own else nullcontext():
-            code = args.run(args)
-        if not sys.stdout.closed:  # by a server that has served
-            sys.stdout.flush()  # a reader that has gone is noticed here, not while the process ends
-        return code
+            return int(args.run(args))
     except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return IO_FAILED
     except KeyboardInterrupt:
         return _interrupted()
@@ -227,7 +288,8 @@ def _explain(fault: Exception) -> int:
         _tell(f"adamslite: {fault}")
         return IO_FAILED
     if isinstance(fault, OSError):
-        where = f"'{fault.filename}': " if fault.filename else ""
+        name = fault.filename if fault.filename == OUTPUT else f"'{fault.filename}'"
+        where = f"{name}: " if fault.filename else ""
         piped = NOT_PIPED if str(fault.filename) == "-" else ""
         _tell(f"adamslite: {where}{fault.strerror or fault}{piped}")
         return IO_FAILED

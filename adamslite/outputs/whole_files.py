@@ -17,28 +17,49 @@ def whole_file(path: str | Path, binary: Literal[True]) -> AbstractContextManage
 def whole_file(path: str | Path, binary: bool = False) -> Iterator[IO[Any]]:
     """Open `path` for writing text or bytes; it changes only when the block succeeds.
 
-    The content goes to a file beside it first, so the final rename stays on one disk and is atomic.
+    The content goes to a file beside it first, and to the disk, before the final rename, which
+    stays on one disk and is atomic: neither a disk that fills nor a loss of power leaves a part.
     What is not a regular file (`/dev/null`, a pipe) is written directly.
+
+    Raises
+    ------
+    OSError
+        As the system reports it, with `path` as its file.
     """
     target = Path(os.path.realpath(path))
     kind = "b" if binary else ""
     encoding, newline = (None, None) if binary else ("utf-8", "\n")
     if target.exists() and not target.is_file():
-        with open(target, f"w{kind}", encoding=encoding, newline=newline) as stream:
+        with _named(path), open(target, f"w{kind}", encoding=encoding, newline=newline) as stream:
             yield stream
         return
     draft = _draft(target)
-    draft.unlink(missing_ok=True)
     try:
-        with open(draft, f"x{kind}", encoding=encoding, newline=newline) as stream:
-            yield stream
-        os.replace(draft, target)
+        with _named(path, draft):
+            with open(draft, f"x{kind}", encoding=encoding, newline=newline) as stream:
+                yield stream
+                stream.flush()
+                os.fsync(stream.fileno())  # some disks are known to be full only now
+            os.replace(draft, target)
     finally:
-        draft.unlink(missing_ok=True)
+        with suppress(OSError):
+            draft.unlink(missing_ok=True)
+
+
+@contextmanager
+def _named(path: str | Path, draft: Path | None = None) -> Iterator[None]:
+    """A fault of the system names the file that was asked for: not its draft, and not nothing."""
+    try:
+        yield
+    except OSError as fault:
+        if fault.errno is not None and fault.filename in (None, str(draft)):
+            fault.filename, fault.filename2 = str(path), None
+        raise
 
 
 def _draft(target: Path) -> Path:
-    return target.with_name(f".{target.name}.{os.getpid()}.part")
+    """A name that nobody can expect: another thread, process or machine may write `target`, too."""
+    return target.with_name(f".{target.name}.{os.urandom(4).hex()}.part")
 
 
 def same_file(path: str | Path, other: str | Path) -> bool:

@@ -66,8 +66,8 @@ def run(args: argparse.Namespace) -> int:
     tried, runs = _runs(args, scene)
     errors = sorted(args.error or ERRORS, reverse=True)
     chart = measure(runs, tried, errors, args.repeats, args.channel)
-    _write(chart, Path(f"{name}.csv"))
     sys.stdout.write(table(chart))
+    _write(chart, Path(f"{name}.csv"))
     _draw(chart, name, args)
     sys.stdout.write(verdict(chart, args.digits))
     return OUTSIDE_TOLERANCE if chart.useless else DONE
