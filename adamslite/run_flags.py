@@ -59,9 +59,11 @@ def add_values_flag(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
 
 
-def add_deck(parser: argparse.ArgumentParser) -> None:
+def add_deck(parser: argparse.ArgumentParser, required: bool = True) -> None:
     """Declare a deck, its command file, what stands in for routines, and other numbers."""
-    parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
+    deck = parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
+    if not required:
+        deck.nargs, deck.required = "?", False
     parser.add_argument(
         "commands", metavar="COMMANDS.acf", type=Path, nargs="?",
         help="command file; without it the .acf beside the deck",

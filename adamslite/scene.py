@@ -11,6 +11,7 @@ from adamslite.language.diagnostics import DeckError, Diagnostic
 from adamslite.progress import Progress
 
 if TYPE_CHECKING:  # numpy is not needed to check a deck
+    from adamslite.analyses.history import Journal
     from adamslite.deck.commands import Commands
     from adamslite.deck.deck import Deck
     from adamslite.deck.user_bindings import Given
@@ -139,10 +140,12 @@ def run_scene(
     options: Mapping[str, Any],
     progress: Progress | None = None,
     folder: Path | None = None,
+    journal: "Journal | None" = None,
 ) -> "Results":
     """Simulate a scene; `options` are keyword arguments of `simulate`.
 
-    The files of SAVE and RELOAD are in `folder`; without it they are in memory.
+    The files of SAVE and RELOAD are in `folder`; without it they are in memory. `journal` keeps a
+    run that takes long.
 
     Raises
     ------
@@ -153,4 +156,5 @@ def run_scene(
         from adamslite.outputs.saved_files import SavedFiles
 
         options = {**options, "files": SavedFiles(folder)}
+    options = {**options, "journal": journal} if journal else options
     return adamslite.simulate(scene.deck, commands=scene.commands, progress=progress, **options)

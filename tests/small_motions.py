@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from adamslite.analyses.dynamic import run_dynamic
+from adamslite.analyses.dynamic import integrate, make_ready
 from adamslite.analyses.initial.conditions import initial_conditions, move
 from adamslite.analyses.session import Session
 from adamslite.model.model import PART
@@ -75,7 +75,8 @@ class Flow:
         assert initial_conditions(system) is None
         before = self._state()
         times = np.array([t, t + time])
-        outcome = run_dynamic(system, times, time, self.settings, None)
+        make_ready(system, times, time, self.settings)
+        outcome = integrate(system, self.settings, None)
         assert outcome is Outcome.DONE
         return before, self._state()
 

@@ -11,6 +11,7 @@ from scenes import GROUND, done
 import adamslite as al
 from adamslite.analyses.accuracy_notes import _added_up, longest_way
 from adamslite.analyses.dynamic import Settings
+from adamslite.analyses.history import History, Piece
 from adamslite.deck.python_routine import reads
 from adamslite.results.run_error import error_of
 
@@ -241,7 +242,9 @@ def test_a_wall_that_a_routine_hides_is_told(error: float, told: bool):
 @pytest.mark.parametrize(("way", "moves"), [(1e-13, False), (1e-9, True)])
 def test_rounding_of_a_place_is_no_way(way: float, moves: bool) -> None:
     """A body 100 m from the origin, whose place has 14 digits."""
-    found, _ = longest_way(("PART/2.x",), np.array([[100.0], [100.0 + way]]))
+    history = History()
+    history.extend(Piece(np.arange(2.0), ("PART/2.x",), np.array([[100.0], [100.0 + way]])))
+    found, _ = longest_way(history)
     assert found == pytest.approx(way if moves else 0.0, abs=2e-14)
 
 

@@ -11,6 +11,7 @@ and counts as e^(3/2).
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,6 +22,7 @@ from adamslite.language.method import FIXED, FIXED_BY_HINIT
 
 if TYPE_CHECKING:
     from adamslite.analyses.dynamic import Settings
+    from adamslite.analyses.history import History
     from adamslite.equations.system import System
 
 # ERROR up to which a user means digits that methods of order 2, or without a test of velocities, do
@@ -52,8 +54,7 @@ def accuracy_notes(
     system: System,
     settings: Settings,
     counts: contract.Counts,
-    names: tuple[str, ...],
-    values: np.ndarray,
+    history: History,
 ) -> str:
     """What ERROR does not say about the accuracy of a run, in sentences; empty when it does.
 
@@ -63,35 +64,33 @@ def accuracy_notes(
         Behind the run.
     counts : Counts
         Steps, restarts and the like of all of it.
-    names, values
-        Columns of the results.
+    history : History
+        The records of it.
     """
     if settings.formula.steps == FIXED:
         return "equal steps without error test: compare a run with half of HINIT"
     report, steps = system.report, counts.steps
     shifted = 1.0 + float(counts.restarts) / SHIFTED
-    way, reach = longest_way(names, values)
+    way, reach = longest_way(history)
     spent = float(report.spent) * settings.error * shifted
     off = spent * max(1.0, reach)
     found = [*_of_method(settings, steps, report, off), *_added_up(settings, steps, off, way)]
-    found += _of_small_states(settings, spent, names, values)
+    found += _of_small_states(settings, spent, history)
     if settings.form != settings.formula.formulations[0] and system.sizes.holonomic:
         found.append("I3 does not test velocities, so that their errors add up; SI2 does")
     return "; ".join(found)
 
 
-def longest_way(names: tuple[str, ...], values: np.ndarray) -> tuple[float, float]:
+def longest_way(history: History) -> tuple[float, float]:
     """The longest way of a body along an axis, and the largest coordinate of those that move.
 
     The way is 0 where nothing moves.
     """
-    places = [k for k, name in enumerate(names) if name.endswith((".x", ".y", ".z"))
+    places = [k for k, name in enumerate(history.names) if name.endswith((".x", ".y", ".z"))
               and name.startswith(("PART/", "POINT_MASS/"))]  # fmt: skip
-    if not places or not len(values):
+    if not places or not history.count:
         return 0.0, 0.0
-    blocks = [places[k : k + COLUMNS] for k in range(0, len(places), COLUMNS)]
-    least = np.concatenate([values[:, block].min(axis=0) for block in blocks])
-    most = np.concatenate([values[:, block].max(axis=0) for block in blocks])
+    least, most = _extremes(history, places)
     if not (np.isfinite(least).all() and np.isfinite(most).all()):
         return 0.0, 0.0
     ways = most - least
@@ -99,6 +98,18 @@ def longest_way(names: tuple[str, ...], values: np.ndarray) -> tuple[float, floa
     sizes = np.maximum(np.abs(least), np.abs(most))
     # In a model of bodies that only turn, ways are the rounding of the places of any of them.
     return (way if way > ROUNDING * float(sizes.max()) else 0.0), float(sizes[moving].max())
+
+
+def _extremes(history: History, places: list[int]) -> tuple[np.ndarray, np.ndarray]:
+    """The least and the largest values of some columns; not-a-number where there is one."""
+    least, most = np.full(len(places), np.inf), np.full(len(places), -np.inf)
+    for _, values in history.blocks():
+        for first in range(0, len(places), COLUMNS):
+            some = slice(first, first + COLUMNS)
+            columns = values[:, places[some]]
+            least[some] = np.minimum(least[some], columns.min(axis=0))
+            most[some] = np.maximum(most[some], columns.max(axis=0))
+    return least, most
 
 
 def _of_method(
@@ -163,17 +174,15 @@ def _added_up(settings: Settings, steps: int, off: float, way: float) -> Iterato
         )
 
 
-def _of_small_states(
-    settings: Settings, spent: float, names: tuple[str, ...], values: np.ndarray
-) -> Iterator[str]:
+def _of_small_states(settings: Settings, spent: float, history: History) -> Iterator[str]:
     """DIFF states so small that ERROR, which is absolute below 1, is a share of them: the worst."""
     found = []
-    for k, name in enumerate(names):
-        if name.startswith("DIFF/") and np.isfinite(values[:, k]).all():
-            size = float(np.abs(values[:, k]).max())
-            off = spent * max(1.0, size)
-            if off > FELT * size > 0.0:
-                found.append((off / size, off, name))
+    places = [k for k, name in enumerate(history.names) if name.startswith("DIFF/")]
+    least, most = _extremes(history, places) if places else (np.zeros(0), np.zeros(0))
+    for k, size in zip(places, np.maximum(-least, most).tolist(), strict=True):
+        off = spent * max(1.0, size)
+        if isfinite(size) and off > FELT * size > 0.0:
+            found.append((off / size, off, history.names[k]))
     if not found:
         return
     found.sort(key=lambda state: -state[0])

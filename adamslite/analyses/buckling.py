@@ -13,6 +13,7 @@ Reference: Ziegler, Principles of Structural Stability, 1968, section 1.2.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -20,6 +21,7 @@ import numpy as np
 from adamslite.model.model import POINT
 
 if TYPE_CHECKING:
+    from adamslite.analyses.history import History
     from adamslite.elements.sforce import Sforce
     from adamslite.elements.springdamper import Springdamper
     from adamslite.model.geometry import Place
@@ -42,18 +44,16 @@ class _Strut(NamedTuple):
     j: Place
 
 
-def buckled(model: Model, names: tuple[str, ...], time: np.ndarray, values: np.ndarray) -> str:
-    """The element that pushed longest and hardest, and what grew by that; empty when little did.
-
-    names, values : columns of the records, (nt, len(names));  time : (nt,)
-    """
-    column = {name: k for k, name in enumerate(names)}
-    struts = _pushed(_struts(model, column), values)
-    size = max(1, BLOCK // max(1, len(time)))
-    blocks = (struts[k : k + size] for k in range(0, len(struts), size))
+def buckled(model: Model, history: History) -> str:
+    """The element that pushed longest and hardest, and what grew by that; empty when little did."""
+    column = {name: k for k, name in enumerate(history.names)}
+    struts = _pushed(_struts(model, column), history)
+    grown = np.zeros(len(struts))
     ends = _Ends(model, column)
-    found = [_exponents(block, ends, time, values) for block in blocks]
-    grown = np.concatenate([np.zeros(0), *found])
+    for time, values in _overlapping(history) if struts else ():
+        size = max(1, BLOCK // max(1, len(time)))
+        for k in range(0, len(struts), size):
+            grown[k : k + size] += _exponents(struts[k : k + size], ends, time, values)
     most = grown.max(initial=0.0)
     if not most > -np.log(ROUND_OFF / FELT):
         return ""
@@ -89,11 +89,21 @@ def _is_action(element: Sforce | Springdamper) -> bool:
     return element.keyword == "SFORCE" and bool(getattr(element, "actiononly", False))
 
 
-def _pushed(struts: list[_Strut], values: np.ndarray) -> list[_Strut]:
+def _pushed(struts: list[_Strut], history: History) -> list[_Strut]:
     """Those that push somewhere in the records."""
-    forces = values[:, [each.force for each in struts]]
-    pushed = np.flatnonzero((~(forces <= 0.0)).any(axis=0))
-    return [struts[k] for k in pushed.tolist()]
+    places, pushed = [each.force for each in struts], np.zeros(len(struts), dtype=bool)
+    for _, values in history.blocks() if struts else ():
+        pushed |= (~(values[:, places] <= 0.0)).any(axis=0)
+    return [struts[k] for k in np.flatnonzero(pushed).tolist()]
+
+
+def _overlapping(history: History) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """The blocks of the records, each with the last row of the one before."""
+    last: tuple[np.ndarray, np.ndarray] | None = None
+    for time, values in history.blocks():
+        before = ([time], [values]) if last is None else ([last[0], time], [last[1], values])
+        yield np.concatenate(before[0]), np.concatenate(before[1])
+        last = time[-1:], values[-1:]
 
 
 def _exponents(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import signal
 import threading
+from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import partial
 from typing import TYPE_CHECKING
@@ -26,6 +27,7 @@ from adamslite.progress import RunState
 from adamslite.results.outcomes import Outcome
 
 if TYPE_CHECKING:
+    from adamslite.analyses.history import Outlet
     from adamslite.equations.system import System
     from adamslite.language.method import Method
     from adamslite.progress import Progress
@@ -36,6 +38,12 @@ STEPS_PER_OUTPUT = 20.0
 ROUND_OFF = 1e-14
 # Time between two looks at a run [s], and unknowns times tries of a step that take less.
 WATCH_INTERVAL, UNWATCHED = 0.1, 50_000.0
+# Numbers that the records of a run have room for, where they go elsewhere block by block.
+ROOM = 2**19
+# Codes after which a method is called again.
+UNFINISHED = (contract.PAUSED, contract.FULL, contract.HELD)
+# Code of a run that was given up, see :func:`integrate`.
+GIVEN_UP = -1
 # Tries of a step after which a run is judged; each later judgement is at twice as many.
 JUDGED, LATER = 1_000, 2
 # A decay in so much less time than a step holds steps of an explicit formula down, which is stable
@@ -143,27 +151,18 @@ class Settings:
         return damping(self) if damping else (0.0, 0.0, 0.0)
 
 
-def run_dynamic(
+def make_ready(
     system: System,
     times: np.ndarray,
     apart: float,
     settings: Settings,
-    progress: Progress | None,
     audited: bool = False,
-    budget: Budget | None = None,
-) -> Outcome:
-    """Integrate over ``times`` (nt,) and fill ``system.record``, see :func:`make_ready`."""
-    make_ready(system, times, apart, settings, audited)
-    return integrate(system, settings, progress, budget=budget)
-
-
-def make_ready(
-    system: System, times: np.ndarray, apart: float, settings: Settings, audited: bool = False
+    in_blocks: bool = False,
 ) -> None:
     """Whatever an integration over ``times`` (nt,) needs to begin.
 
     ``apart``: the largest step between requested outputs; ``audited``: with a balance of energy in
-    ``system.audit``.
+    ``system.audit``; ``in_blocks``: records go elsewhere when there is no more room for them.
     """
     start, end = float(times[0]), float(times[-1])
     fixed = settings.fixed_step(apart)
@@ -176,7 +175,7 @@ def make_ready(
     run.alpha, run.beta, run.gamma = settings.damping
     run.interpolate, run.adaptivity = settings.interpolates, settings.adaptivity
     run.all_converge = settings.corrector in EVERYTHING
-    run.stop, system.report.torn = False, 0
+    run.stop, run.begun, system.report.torn = False, False, 0
     system.pattern = ints([word == "T" for word in settings.pattern])
     times = _scheduled(system, times, settings, hmax)
     run.t_end = float(system.stops[-1])
@@ -188,7 +187,9 @@ def make_ready(
         from adamslite.analyses.audit import start_audit
 
         start_audit(system)
-    system.start_record(times)
+    row = max(1, system.nw + system.sizes.n_out)
+    in_blocks &= settings.formula.in_blocks
+    system.start_record(times, max(2, ROOM // row) if in_blocks else None)
     system.records()
 
 
@@ -198,19 +199,23 @@ def integrate(
     progress: Progress | None,
     judged: bool = False,
     budget: Budget | None = None,
+    outlet: Outlet | None = None,
 ) -> Outcome:
     """Run what was made ready; how it ended.
 
-    ``judged``: a method that pauses ends with STEP_TOO_SMALL when a decay holds its steps down.
+    ``judged``: a method that pauses ends with STEP_TOO_SMALL when a decay holds its steps down;
+    ``outlet``: takes the records for which there is no more room, and keeps the run.
     """
     budget = budget or Budget()
     budget.lend(system)
     run = system.settings
     start, end, hmax = float(run.t), float(run.t_end), float(run.h_max)
-    code = _watched(system, settings.formula, progress, start, end, judged, budget)
+    code = _watched(system, settings.formula, progress, start, end, judged, budget, outlet)
+    if outlet:
+        outlet.end(code)
     budget.settle(system)
     system.release_guards()
-    if code == contract.PAUSED:
+    if code == GIVEN_UP:
         return Outcome.STEP_TOO_SMALL
     if system.search.loose:
         require_none(system, EQUAL)
@@ -271,7 +276,7 @@ def _first_tries(system: System, method: Method, judged: bool) -> int:
     where there are more. Routines of the user may take any time.
     """
     run = system.settings
-    run.begun, run.pause = False, int(UNWATCHED / max(system.nz, 1))
+    run.pause = int(UNWATCHED / max(system.nz, 1))
     run.pause = min(run.pause, JUDGED) if judged else run.pause
     if not method.pauses or run.pause == 0 or system.model.deck.user.used:
         return contract.PAUSED
@@ -282,14 +287,17 @@ def _first_tries(system: System, method: Method, judged: bool) -> int:
     return contract.PAUSED
 
 
-def _resumed(system: System, method: Method, judged: bool) -> int:
-    """Run until there is an outcome; PAUSED when it is given up as :func:`integrate` says."""
+def _resumed(system: System, method: Method, judged: bool, outlet: Outlet | None) -> int:
+    """Run until there is an outcome."""
     run = system.settings
     run.pause = max(run.pause, JUDGED) if judged and method.pauses else 0
-    while (code := system.integrate(method.entry)) == contract.PAUSED:
-        if is_held_down(system):
-            return code
-        run.pause *= LATER
+    while (code := system.integrate(method.entry)) in UNFINISHED:
+        if code == contract.PAUSED:
+            if is_held_down(system):
+                return GIVEN_UP
+            run.pause *= LATER
+        elif outlet:
+            outlet.take(code)
     return code
 
 
@@ -318,26 +326,21 @@ def _watched(
     end: float,
     judged: bool,
     budget: Budget,
+    outlet: Outlet | None,
 ) -> int:
     """Run; what is not over soon in a thread of its own, with a look at it from time to time."""
-    code = _first_tries(system, method, judged)
+    code = outlet.begin() if outlet else None
+    if code is None:
+        code = _first_tries(system, method, judged)
     unseen = progress is None and budget.cpu is None and not _is_interrupted_here()
-    if code == contract.PAUSED and unseen:
-        return _resumed(system, method, judged)
-    if code != contract.PAUSED and not (progress and progress.is_due()):
+    if code in UNFINISHED and unseen:
+        return _resumed(system, method, judged, outlet)
+    if code not in UNFINISHED and not (progress and progress.is_due()):
         return code
     look = partial(_state, system, StepLimits(system), start, end)
-    if code == contract.PAUSED:
-        running = Worker(partial(_resumed, system, method, judged))
-        while running.works:
-            try:
-                running.wait(WATCH_INTERVAL)
-                if budget.out_of_time:
-                    system.settings.stop = True
-                elif progress and running.works:
-                    progress.watch(look())
-            except KeyboardInterrupt:
-                system.settings.stop = True
+    if code in UNFINISHED:
+        running = Worker(partial(_resumed, system, method, judged, outlet))
+        _watch(running, system, progress, look, budget, outlet)
         code = running.result()
     try:
         if progress and not system.settings.stop and progress.is_due():
@@ -345,6 +348,31 @@ def _watched(
     except KeyboardInterrupt:
         return contract.INTERRUPTED
     return code
+
+
+def _watch(
+    running: Worker,
+    system: System,
+    progress: Progress | None,
+    look: Callable[[], RunState],
+    budget: Budget,
+    outlet: Outlet | None,
+) -> None:
+    """Until the worker is done."""
+    while running.works:
+        try:
+            running.wait(WATCH_INTERVAL)
+            if outlet:
+                outlet.look()
+            if budget.out_of_time:
+                system.settings.stop = True
+            elif progress and running.works:
+                progress.watch(look())
+        except KeyboardInterrupt:
+            if outlet:
+                outlet.interrupt()
+            else:
+                system.settings.stop = True
 
 
 def _state(system: System, limits: StepLimits, start: float, end: float) -> RunState:

@@ -1,26 +1,66 @@
-"""The time histories of a session: what its analyses wrote, one after the other."""
+"""The time histories of a session: what its analyses wrote, one after the other.
+
+They are a list of stretches of rows with the same columns.  A stretch is in memory, or in a file
+(:mod:`adamslite.outputs.part_file`) where it has become too long for that, or the run takes long.
+Then the file also holds what a killed session goes on from (:mod:`adamslite.analyses.checkpoint`).
+"""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+import time as clock
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from adamslite.integrators import contract
 
-class Piece(NamedTuple):
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from adamslite.equations.system import System
+    from adamslite.outputs.part_file import Part, PartFile, Stretch
+
+#: Time before the first state is written, and between two of them [s]; a run that took longer than
+#: the last is not done again.
+SETTLED, EVERY, LONG = 5.0, 5.0, 1.0
+#: How long an interruption waits for the last state [s].
+PATIENCE = 0.5
+#: Numbers of results that are kept in memory.
+MOST = 2**22
+# Numbers of a block: what is found block by block is the same wherever the rows are kept.
+BLOCK = 2**20
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
     """Times (nt,), names of columns, values (nt, nc)."""
 
     times: np.ndarray
     names: tuple[str, ...]
     values: np.ndarray
 
+    @property
+    def count(self) -> int:
+        """How many rows there are."""
+        return len(self.times)
+
+    def part(self, first: int, end: int) -> Part:
+        """Times and values of some rows."""
+        return self.times[first:end], self.values[first:end]
+
+    def until(self, end: int) -> Piece:
+        """The first rows alone."""
+        return Piece(self.times[:end], self.names, self.values[:end])
+
 
 class History:
-    """Pieces of one table; commands between them may have changed the columns."""
+    """Stretches of one table; commands between them may have changed the columns."""
 
     def __init__(self) -> None:
-        self.pieces: list[Piece] = []
-        self._whole: Piece | None = None
+        self.stretches: list[Stretch] = []
+        self.part: PartFile | None = None
 
     def append(self, piece: Piece, static: bool, after_rest: bool) -> None:
         """Add what an analysis wrote; a state both ends and begins two analyses only once.
@@ -28,38 +68,231 @@ class History:
         An equilibrium (``static``) is another state at the same time, which takes the place of the
         last one where the analysis begins ``after_rest``.
         """
-        self._whole = None
-        last = self.pieces[-1] if self.pieces else None
-        if last and len(piece.times) and len(last.times) and last.times[-1] == piece.times[0]:
+        last = self.stretches[-1] if self.stretches else None
+        if last and last.count and piece.count and _end(last) == piece.times[0]:
             if after_rest:
-                self.pieces[-1] = Piece(last.times[:-1], last.names, last.values[:-1])
+                self.stretches[-1] = last.until(last.count - 1)
             elif not static:
                 piece = Piece(piece.times[1:], piece.names, piece.values[1:])
-        if len(piece.times) or not last:
-            self.pieces.append(piece)
+        if piece.count or not last:
+            self.extend(piece)
+
+    def extend(self, piece: Piece) -> None:
+        """Add further rows of the same analysis."""
+        self.stretches.append(piece)
+        if self.part:
+            self.file(self.part)
+
+    def file(self, part: PartFile) -> None:
+        """Keep the rows in a file from here on."""
+        self.part, stretches = part, self.stretches
+        self.stretches = []
+        for each in stretches:
+            self.stretches = part.continued(self.stretches, each)
+
+    def cut(self, rows: int) -> None:
+        """Take the last rows away."""
+        while rows > 0:
+            last = self.stretches.pop()
+            if last.count > rows:
+                self.stretches.append(last.until(last.count - rows))
+            rows -= last.count
+
+    def mark(self) -> list[Stretch]:
+        """What :meth:`return_to` goes back to."""
+        return list(self.stretches)
+
+    def return_to(self, mark: list[Stretch]) -> None:
+        """Forget what was added since."""
+        self.stretches = list(mark)
+        if self.part and any(isinstance(each, Piece) for each in mark):
+            self.file(self.part)
+
+    @property
+    def in_memory(self) -> int:
+        """Numbers that are kept in memory."""
+        return sum(each.count * (len(each.names) + 1)
+                   for each in self.stretches if isinstance(each, Piece))  # fmt: skip
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The columns of all stretches; one that a stretch does not have holds no number there."""
+        if len(self.stretches) == 1:
+            return self.stretches[0].names
+        return tuple(dict.fromkeys(name for each in self.stretches for name in each.names))
+
+    @property
+    def count(self) -> int:
+        """How many rows there are."""
+        return sum(each.count for each in self.stretches)
+
+    def parts(self, size: int) -> Iterator[Part]:
+        """Times and values of so many rows after the other, whatever stretches they are in."""
+        names, room = self.names, size
+        held: list[Part] = []
+        for each in self.stretches:
+            at = 0
+            while at < each.count:
+                took = min(room, each.count - at)
+                times, values = each.part(at, at + took)
+                values = values if each.names == names else _spread(each.names, names, values)
+                held.append((times, values))
+                at, room = at + took, room - took
+                if room == 0:
+                    yield _joined(held)
+                    held, room = [], size
+        if held:
+            yield _joined(held)
+
+    def blocks(self) -> Iterator[Part]:
+        """The same in blocks whose size only depends on the number of columns."""
+        return self.parts(max(1, BLOCK // max(1, len(self.names))))
 
     @property
     def whole(self) -> Piece:
-        """All pieces in one; a column that a piece does not have holds no number there."""
-        if self._whole is None:
-            self._whole = self._joined()
-        return self._whole
-
-    def _joined(self) -> Piece:
-        if not self.pieces:
-            return Piece(np.zeros(0), (), np.zeros((0, 0)))
-        if len(self.pieces) == 1:
-            return self.pieces[0]
-        names = tuple(dict.fromkeys(name for each in self.pieces for name in each.names))
-        values = [each.values if each.names == names else _spread(each, names)
-                  for each in self.pieces]  # fmt: skip
-        times = np.concatenate([each.times for each in self.pieces])
-        return Piece(times, names, np.concatenate(values))
+        """All rows, in memory."""
+        for times, values in self.parts(max(1, self.count)):
+            return Piece(times, self.names, values)
+        return Piece(np.zeros(0), self.names, np.zeros((0, len(self.names))))
 
 
-def _spread(piece: Piece, names: tuple[str, ...]) -> np.ndarray:
-    """The values of a piece under more names (nt, nc)."""
+def _end(stretch: Stretch) -> float:
+    """The time of the last row."""
+    return float(stretch.part(stretch.count - 1, stretch.count)[0][0])
+
+
+def _joined(held: list[Part]) -> Part:
+    if len(held) == 1:
+        return held[0]
+    return np.concatenate([times for times, _ in held]), np.concatenate([v for _, v in held])
+
+
+def _spread(own: tuple[str, ...], names: tuple[str, ...], values: np.ndarray) -> np.ndarray:
+    """Values of some columns under more names (nt, nc)."""
     column = {name: k for k, name in enumerate(names)}
-    values = np.full((len(piece.times), len(names)), np.nan)
-    values[:, [column[name] for name in piece.names]] = piece.values
-    return values
+    found = np.full((len(values), len(names)), np.nan)
+    found[:, [column[name] for name in own]] = values
+    return found
+
+
+class Journal:
+    """Where a session is kept that takes long.
+
+    Parameters
+    ----------
+    path : Path
+        The file; it is made when the session has taken ``SETTLED``, or its results become too many
+        for the memory.
+    facts : function that returns a mapping
+        What the run is of, and how it was requested; kept with every state.
+    found : PartFile or None
+        The file of the session that is to be resumed.
+    """
+
+    def __init__(
+        self, path: Path, facts: Callable[[], Mapping[str, Any]], found: PartFile | None = None
+    ) -> None:
+        self.path, self.facts, self.part = path, facts, found
+        self.due = clock.monotonic() + SETTLED
+        self.run = -1
+        self.ends: dict[int, Sequence[int]] = {}
+
+    def outlet(self, history: History, system: System, spill: Callable[[], None]) -> Outlet:
+        """What takes the records of the next run, by ``spill``."""
+        self.run += 1
+        return Outlet(self, history, system, spill)
+
+    def is_due(self) -> bool:
+        """Whether it is time for another state."""
+        return clock.monotonic() >= self.due
+
+    def write(self, history: History, system: System, code: int | None = None) -> None:
+        """Keep the present run, which goes on or has ended with ``code``."""
+        from adamslite.analyses import checkpoint
+
+        facts = self.facts()
+        if self.part is None:
+            self.part = checkpoint.begin(self.path, facts, float(system.settings.t_end))
+        if history.part is None:
+            history.file(self.part)
+        checkpoint.write(self.part, facts, history.stretches, self.ends, self.run, system, code)
+        self.due = clock.monotonic() + EVERY
+
+    def resume(self, history: History, system: System) -> int | None:
+        """Put the present run where the file has it; its code, None when it is not known there."""
+        if self.part is None or not self.part.state:
+            return None
+        from adamslite.analyses import checkpoint
+
+        self.ends = checkpoint.known_ends(self.part) | self.ends
+        found = checkpoint.resumed(self.part, self.ends, self.run, system)
+        if found is None:
+            return None
+        history.part, (code, history.stretches) = self.part, found
+        return code
+
+    def close(self, keep: bool) -> None:
+        """The results are written; the file stays if the run can go on."""
+        if self.part and keep:
+            self.part.close()
+        elif self.part:
+            self.part.remove()
+
+
+class Outlet:
+    """Takes the records of one run when there is no more room for them, and keeps the run."""
+
+    def __init__(
+        self,
+        journal: Journal,
+        history: History,
+        system: System,
+        spill: Callable[[], None],
+    ) -> None:
+        self.journal, self.history, self.system, self.spill = journal, history, system, spill
+        self.began, self.interrupted = clock.monotonic(), 0.0
+
+    def begin(self) -> int | None:
+        """None for a run of its own; the code of one that has ended, or that goes on, from now in
+        the state that the journal holds.
+        """
+        return self.journal.resume(self.history, self.system)
+
+    def take(self, code: int) -> None:
+        """Take the records of a full block, or write a state; called where the run goes on."""
+        journal, block = self.journal, self.system.block
+        if code == contract.FULL:
+            self.spill()
+            if journal.part is None and self.history.in_memory > MOST:
+                journal.due = 0.0
+        if code == contract.HELD or journal.is_due():
+            block.hold = False
+            journal.write(self.history, self.system)
+        if self.interrupted:
+            self.system.settings.stop = True
+
+    def look(self) -> None:
+        """From another thread: ask for a state when it is time."""
+        if self.interrupted:
+            if clock.monotonic() > self.interrupted + PATIENCE:
+                self.system.settings.stop = True
+        elif self.journal.is_due():
+            self.system.block.hold = True
+
+    def interrupt(self) -> None:
+        """From another thread: end the run, with a last state where there are earlier ones."""
+        if self.journal.part is None or self.interrupted:
+            self.system.settings.stop = True
+        else:
+            self.interrupted = clock.monotonic()
+            self.system.block.hold = True
+
+    def end(self, code: int) -> None:
+        """The run has ended with a code."""
+        journal, system = self.journal, self.system
+        if journal.run in journal.ends:
+            return
+        over = code != contract.INTERRUPTED or bool(system.triggered or system.report.torn)
+        long = journal.part is not None and clock.monotonic() > self.began + LONG
+        if over and (long or journal.is_due()):
+            journal.write(self.history, system, code)

@@ -97,10 +97,12 @@ class SensorLog:
         system.settings.t = time = float(system.report.t)
         if system.run(ACCELERATIONS) != contract.DONE:
             return Outcome.UNDETERMINED, times, True
+        first = int(system.block.first)
         row = int(np.searchsorted(times[: system.count.records], time))
         output = row < len(times) and times[row] == time
         system.run(RECORD, row)
-        written = system.record.reshape(-1)[row * (system.nw + system.sizes.n_out) + system.nw :]
+        at = (row - first) * (system.nw + system.sizes.n_out)
+        written = system.record.reshape(-1)[at + system.nw :]
         triggered, found = (
             system.triggered,
             zip(system.sensors, system.numbering.sensors, strict=True),

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from adamslite.analyses.delays import NO_PAST, require_no_delay
-from adamslite.analyses.dynamic import integrate, largest_step, make_ready, run_dynamic
+from adamslite.analyses.dynamic import integrate, largest_step, make_ready
 from adamslite.analyses.initial.conditions import consistent_velocities
 from adamslite.analyses.initial.redundancy import badly_chosen, leave_out_redundant
 from adamslite.analyses.method_choice import choose_method
@@ -70,7 +70,7 @@ class Session(SessionState):
             try:
                 self._carry_out(command)
             except KeyboardInterrupt:
-                if not self.history.pieces:
+                if not self.history.stretches:
                     raise
                 # What is half done, as a model that is being changed, is not reported on.
                 self.kernels, self.present = before
@@ -171,7 +171,7 @@ class Session(SessionState):
         """Integrate over output times (nt,), of which those ``wanted`` were requested."""
         system, apart, error = self.system, largest_step(times), self.settings.error
         for span, kept in self.delays.spans(self.kernels, system, times, wanted, error):
-            self.outcome = self._tried(span, apart)
+            self.outcome = self._tried(span, apart, kept)
             system = self.system
             self.keep(system, *self._sensed(system, span, kept, apart))
             if not self.deck.delays:  # which look into it
@@ -197,21 +197,22 @@ class Session(SessionState):
         self.chosen = replace(self.chosen, settings=started)
         self.sensors.continuing = []
 
-    def _tried(self, times: np.ndarray, apart: float) -> Outcome:
+    def _tried(self, times: np.ndarray, apart: float, wanted: np.ndarray) -> Outcome:
         """Integrate; where the method that AUTO took stalls, from the beginning by that which it
         has in reserve.
         """
         beginning = self._beginning() if self.chosen.instead else None
         drawn_up = len(self.balances)
         self.sensors.arm(self.system)
-        outcome = self._integrated(self.system, times, apart)
+        outcome = self._integrated(self.system, times, apart, wanted)
         if beginning is None or outcome not in (*STALLED, Outcome.CREEPING):
             return outcome
         self.budget.crept = 0
         beginning.return_to()
+        self.history.return_to(self.before)
         del self.balances[drawn_up:]
         self._take(self.chosen.other)
-        return self._tried(times, apart)
+        return self._tried(times, apart, wanted)
 
     def _beginning(self) -> Beginning:
         # Only a run that may begin again needs it.
@@ -219,18 +220,27 @@ class Session(SessionState):
 
         return Beginning(self.system)
 
-    def _integrated(self, system: System, times: np.ndarray, apart: float) -> Outcome:
-        settings = self.chosen.settings
-
-        def run() -> Outcome:
-            make_ready(system, times, apart, settings, self.audited)
-            if self.first_step is None and not self.history.pieces:
-                self.first_step, self.late_setup = clock.process_time(), 0.0
-            return integrate(system, settings, self.whole, bool(self.chosen.instead), self.budget)
-
+    def _integrated(
+        self, system: System, times: np.ndarray, apart: float, wanted: np.ndarray
+    ) -> Outcome:
+        self.before = self.history.mark()
+        run = partial(self._run, system, times, apart, wanted)
         outcome = run() if "plane" in self.without else in_its_plane(system, run)
         self._note_balance(system)
         return outcome
+
+    def _run(self, system: System, times: np.ndarray, apart: float, wanted: np.ndarray) -> Outcome:
+        """One run from the present state over ``times``, of which those ``wanted`` are kept."""
+        settings = self.chosen.settings
+        self.history.return_to(self.before)  # what left its plane begins again
+        in_blocks = self.journal is not None and not self.deck.delays
+        make_ready(system, times, apart, settings, self.audited, in_blocks)
+        if self.first_step is None and not self.history.stretches:
+            self.first_step, self.late_setup = clock.process_time(), 0.0
+        spill = partial(self.spill, system, times, wanted)
+        outlet = self.journal.outlet(self.history, system, spill) if self.journal else None
+        judged = bool(self.chosen.instead)
+        return integrate(system, settings, self.whole, judged, self.budget, outlet)
 
     def _note_balance(self, system: System) -> None:
         if self.audited:
@@ -253,12 +263,11 @@ class Session(SessionState):
         require_no_delay(self.kernels, "A run whose constraints change their rank", NO_PAST)
         later = times > self.time
         self.outcome = Outcome.DONE
-        rest, settings = np.append(self.time, times[later]), self.chosen.settings
-        self.outcome = run_dynamic(
-            system, rest, apart, settings, self.whole, self.audited, self.budget
-        )
+        rest, kept = np.append(self.time, times[later]), np.append(False, wanted[later])
+        self.before = self.history.mark()
+        self.outcome = self._run(system, rest, apart, kept)
         self._note_balance(system)
-        self.keep(system, *self._sensed(system, rest, np.append(False, wanted[later]), apart))
+        self.keep(system, *self._sensed(system, rest, kept, apart))
 
     def _sensed(
         self, system: System, times: np.ndarray, wanted: np.ndarray, apart: float

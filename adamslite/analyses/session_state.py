@@ -41,6 +41,7 @@ from adamslite.outputs.saved_files import SavedFiles
 from adamslite.results.outcomes import Outcome
 
 if TYPE_CHECKING:
+    from adamslite.analyses.history import Journal
     from adamslite.analyses.initial.conditions import Unclosed
     from adamslite.analyses.subject import Subject
     from adamslite.deck.deck import Deck
@@ -73,6 +74,8 @@ class SessionState:
         How the last analysis ended; the constraint that stayed open, if one did.
     present : System or None
         ``system``, as far as it is there; ``began_static``: it is at rest after an equilibrium.
+    before
+        The history without what the present run has written.
     saves, changes
         What SAVE has kept; commands that have changed statements of the deck.
     sensors : SensorLog
@@ -90,8 +93,9 @@ class SessionState:
         audited: bool = False,
         files: SavedFiles | None = None,
         budget: Budget | None = None,
+        journal: Journal | None = None,
     ) -> None:
-        self.progress = progress
+        self.progress, self.journal = progress, journal
         self.budget = budget or Budget()
         self.flags = flags
         self.audited = audited
@@ -105,6 +109,7 @@ class SessionState:
         self.time = self.late_setup = 0.0
         self.first_step: float | None = None
         self.history = History()
+        self.before = self.history.mark()
         self.outcome = Outcome.DONE
         self.unclosed: Unclosed | None = None
         self.linearizations: list[Linearized] = []
@@ -210,7 +215,7 @@ class SessionState:
         if self.unclosed:
             self.outcome = self.unclosed.outcome
             return system
-        if self.time == 0.0 and not self.history.pieces:
+        if self.time == 0.0 and not self.history.stretches:
             self.assembled = system.largest_changes()
             self.speeds = system.changed_speeds()
         settle_variables(system)
@@ -237,13 +242,40 @@ class SessionState:
         """Keep the records made, of which only those ``wanted`` were requested."""
         self.out_of_law = system.instances.out_of_law() | self.out_of_law
         self.apart.look(system)
-        made = system.count.records
-        row = system.nw + system.sizes.n_out
-        names, values = columns(system, system.record[: made * row].reshape(made, row))
-        times = times[:made]
-        if wanted is not None and not wanted[:made].all():
-            times, values = times[wanted[:made]], values[wanted[:made]]
-        piece = Piece(times, names, values)
-        self.history.append(piece, static, self.began_static)
+        self._add(system, times, static, wanted)
         self.began_static = static
         self.counts.add(system.count)
+
+    def _add(
+        self, system: System, times: np.ndarray, static: bool, wanted: np.ndarray | None
+    ) -> None:
+        """The records of the present block to the history."""
+        first, rows = system.block.first, system.rows
+        names, values = columns(system, rows)
+        here = slice(first, first + len(rows))
+        times = times[here]
+        if wanted is not None and not wanted[here].all():
+            times, values = times[wanted[here]], values[wanted[here]]
+        piece = Piece(times, names, values)
+        if first:
+            self.history.extend(piece)
+        else:
+            self.history.append(piece, static, self.began_static)
+
+    def spill(self, system: System, times: np.ndarray, wanted: np.ndarray) -> None:
+        """Keep the records of a full block, whose room is for the next one; where a step was taken
+        back behind its first record, take those away that were kept too early.
+        """
+        block = system.block
+        if block.row < block.first:
+            self._take_back(block.row, wanted[: block.first])
+        else:
+            self._add(system, times, False, wanted)
+            system.record = np.zeros_like(system.record)  # the history may keep the old one
+        block.first = system.count.records = block.row
+
+    def _take_back(self, row: int, wanted: np.ndarray) -> None:
+        if row:
+            self.history.cut(int(wanted[row:].sum()))
+        else:
+            self.history.return_to(self.before)

@@ -35,6 +35,7 @@ from adamslite.results.source import source_of
 
 # Few runs need them, and they take a while to load.
 if TYPE_CHECKING:
+    from adamslite.analyses.history import History, Journal
     from adamslite.analyses.subject import Subject
     from adamslite.deck.deck import Deck
     from adamslite.deck.redefinition import Command
@@ -42,6 +43,7 @@ if TYPE_CHECKING:
     from adamslite.progress import Progress
     from adamslite.results.balance import Balance
     from adamslite.results.linearization import Linearization
+    from adamslite.results.source import RunSource
 
 SETTINGS = ("INTEGRATOR", "EQUILIBRIUM", "KINEMATICS")
 CAPPED = (
@@ -77,11 +79,12 @@ def simulate(
     notes: bool = True,
     cpu_limit: float | None = None,
     max_steps: int | None = None,
+    journal: Journal | None = None,
 ) -> Results:
     """Run a deck, a model or its kernels; ``commands`` are statements.
 
-    Without ``notes`` the results say nothing of the run in words, which takes a while. The other
-    arguments are those of :func:`adamslite.simulate`.
+    Without ``notes`` the results say nothing of the run in words, which takes a while; ``journal``
+    keeps a run that takes long. The other arguments are those of :func:`adamslite.simulate`.
 
     Raises
     ------
@@ -101,11 +104,12 @@ def simulate(
     plan = plan_of(deck_of(scene), commands, end, steps)
     files = files or SavedFiles()
     without = left_off(no_reduction) | kept_apart(plan, audit)
-    session = Session(prepared_for(scene, commands), progress, flags, without, audit, files, budget)
+    subject = prepared_for(scene, commands)
+    session = Session(subject, progress, flags, without, audit, files, budget, journal)
     wanted = (outputs,) if isinstance(outputs, str) else tuple(outputs)
     if wanted:
         _need_columns(session, wanted)
-    results = replace(_results(session, _carried_out(session, plan, began), notes), source=source)
+    results = _results(session, _carried_out(session, plan, began), notes, source)
     if confirm:
         again = partial(
             simulate, scene, end, steps, commands=commands, progress=progress,
@@ -259,20 +263,21 @@ def plan_of(
     return [*plan[:at], _dynamics(end, steps=steps, dtout=dtout), *plan[at + 1 :]]
 
 
-def _without_value(time: np.ndarray, names: tuple[str, ...], values: np.ndarray) -> dict[str, str]:
+def _without_value(history: History) -> dict[str, str]:
     """The first columns with entries that are no numbers, and since when."""
-    columns = np.flatnonzero(~np.isfinite(values).all(axis=0))
-    texts = [
-        f"{names[k]} at t = {time[np.flatnonzero(~np.isfinite(values[:, k]))[0]]:.6g}"
-        for k in columns[:MOST_TOLD]
-    ]
+    since: dict[int, float] = {}
+    for time, values in history.blocks():
+        missing = ~np.isfinite(values)
+        for k in np.flatnonzero(missing.any(axis=0)).tolist():
+            since.setdefault(k, float(time[np.argmax(missing[:, k])]))
+    columns = sorted(since)
+    texts = [f"{history.names[k]} at t = {since[k]:.6g}" for k in columns[:MOST_TOLD]]
     more = f" and {len(columns) - MOST_TOLD} more" if len(columns) > MOST_TOLD else ""
     return {"no number": "; ".join(texts) + more} if texts else {}
 
 
-def _results(session: Session, cpu: tuple[float, float], notes: bool) -> Results:
+def _results(session: Session, cpu: tuple[float, float], notes: bool, source: RunSource) -> Results:
     system = session.system
-    time, names, values = session.history.whole
     counts = session.counts.values()
     summary: dict[str, Any] = {
         "outcome": session.outcome.name, "t_end": session.time, "dof": system.dof,
@@ -283,12 +288,18 @@ def _results(session: Session, cpu: tuple[float, float], notes: bool) -> Results
         worst = _worst(session.balances)
         summary |= {"energy_gap": worst.gap, "energy_gap_explained": worst.explained}
     done = session.outcome.is_requested
-    meta = {**_meta(session), **_without_value(time, names, values)} if notes else {}
-    return Results(
-        time=time, names=names, values=values, meta=meta, outcome=session.outcome,
-        message="" if done else explained(session), summary=summary,
-        linearizations=tuple(session.linearizations), balances=tuple(session.balances),
-    )  # fmt: skip
+    meta = {**_meta(session), **_without_value(session.history)} if notes else {}
+    facts: dict[str, Any] = {
+        "meta": meta, "outcome": session.outcome, "message": "" if done else explained(session),
+        "summary": summary, "linearizations": tuple(session.linearizations),
+        "balances": tuple(session.balances), "source": source,
+    }  # fmt: skip
+    if session.history.part:
+        from adamslite.results.filed import FiledResults
+
+        return FiledResults(session.history, **facts)
+    table = session.history.whole
+    return Results(time=table.times, names=table.names, values=table.values, **facts)
 
 
 def _meta(session: Session) -> Mapping[str, str]:
@@ -319,9 +330,9 @@ def _past(session: Session) -> dict[str, str]:
 
 
 def _accuracy_note(session: Session) -> str:
-    time, names, values = session.history.whole
-    note = accuracy_notes(session.system, session.chosen.settings, session.counts, names, values)
-    grown = buckled(session.kernels.model, names, time, values)
+    settings, history = session.chosen.settings, session.history
+    note = accuracy_notes(session.system, settings, session.counts, history)
+    grown = buckled(session.kernels.model, history)
     return "; ".join(sentence for sentence in (grown, note) if sentence)
 
 
@@ -333,9 +344,8 @@ def _worst(balances: list[Balance]) -> Balance:
 def _beyond(session: Session) -> dict[str, str]:
     """Elements that the motion carried beyond what their law is meant for."""
     texts = [f"{label} {how}" for label, how in session.out_of_law.items()]
-    if session.history.pieces:
-        time, names, values = session.history.whole
-        slack = compressed(session.deck, names, time, values) if len(time) else ""
+    if session.history.count:
+        slack = compressed(session.deck, session.history)
         texts += [slack] if slack else []
     return {"out of its law": "; ".join(texts)} if texts else {}
 
@@ -343,13 +353,12 @@ def _beyond(session: Session) -> dict[str, str]:
 def _standing(session: Session) -> dict[str, str]:
     """Joints that stood still while others moved."""
     joints = [each for each in session.deck.statements if each.keyword == "JOINT"]
-    if len(joints) < 2 or not session.counts.steps or not session.history.pieces:
+    if len(joints) < 2 or not session.counts.steps or not session.history.count:
         return {}
     # Most runs of few parts do without.
     from adamslite.analyses.standstill import standing
 
-    _, names, values = session.history.whole
-    note = standing(session.kernels.model, names, values)
+    note = standing(session.kernels.model, session.history)
     return {"not moved": note} if note else {}
 
 

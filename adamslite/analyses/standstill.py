@@ -14,6 +14,7 @@ from adamslite.elements.marker import Marker
 from adamslite.model.attitude_angles import rotations_313
 
 if TYPE_CHECKING:
+    from adamslite.analyses.history import History
     from adamslite.deck.deck import Deck
     from adamslite.language.interfaces import Key
     from adamslite.model.model import Model
@@ -90,14 +91,14 @@ class _Parts:
         return found
 
 
-def standing(model: Model, names: tuple[str, ...], values: np.ndarray) -> str:
+def standing(model: Model, history: History) -> str:
     """The joints that did not move though something did, in a sentence; empty without any."""
     joints = [j for j in model.deck.of(Joint) if model.acts(j) and j.coordinates]
-    most = min(MOST_JOINTS, MOST_PLACES / max(len(values), 1))
-    if len(values) < 3 or not 1 < len(joints) <= most:
+    most = min(MOST_JOINTS, MOST_PLACES / max(history.count, 1))
+    if history.count < 3 or not 1 < len(joints) <= most:
         return ""
-    column = {name: k for k, name in enumerate(names)}
-    parts = _Parts(model, column, values)
+    table = history.whole
+    parts = _Parts(model, {name: k for k, name in enumerate(table.names)}, table.values)
     moved = {j: found for j in joints if (found := parts.moved(j)) is not None}
     extent = parts.extent()
     still = {j: by for j, by in moved.items() if by[0] <= STILL * extent and by[1] <= STILL}

@@ -17,6 +17,7 @@ from adamslite.progress import Progress, progress_of
 from adamslite.results.results import Results
 
 if TYPE_CHECKING:
+    from adamslite.analyses.history import Journal
     from adamslite.results.linearization import Linearization
 
 
@@ -38,6 +39,7 @@ def simulate(
     outputs: Iterable[str] = (),
     cpu_limit: float | None = None,
     max_steps: int | None = None,
+    journal: Journal | None = None,
 ) -> Results:
     """Run a deck, as `adamslite solve` does.
 
@@ -73,6 +75,8 @@ def simulate(
     max_steps : int
         Accepted steps after which it ends as STEP_LIMIT. Without, a run that creeps ends as
         CREEPING: see :class:`adamslite.results.outcomes.Outcome`.
+    journal : adamslite.analyses.history.Journal
+        Where a run is kept that takes long, as the command line has it; not kept unless given.
 
     Warns
     -----
@@ -92,7 +96,7 @@ def simulate(
         return simulation.simulate(
             given.subject, end, steps, integrator, formulation, error, hmax, given.commands,
             shown, no_reduction, audit, confirm, kept, outputs,
-            cpu_limit=cpu_limit, max_steps=max_steps,
+            cpu_limit=cpu_limit, max_steps=max_steps, journal=journal,
         )  # fmt: skip
 
 

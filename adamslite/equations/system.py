@@ -32,7 +32,7 @@ if TYPE_CHECKING:  # few runs need sparse matrices
 
     from adamslite.elements.sensor import Sensor
     from adamslite.equations.broken_motion import Break
-    from adamslite.integrators.audit_record import Audit, Budget, Tape
+    from adamslite.integrators.audit_record import Audit, Block, Budget, Tape, Undoing
     from adamslite.integrators.event_rows import Search
     from adamslite.kernels.groups import Kernels
     from adamslite.language.statement import Statement
@@ -84,7 +84,8 @@ class System:
     uncounted: contract.Counts
     report: contract.Report
     search: Search
-    undoing: contract.Undoing
+    undoing: Undoing
+    block: Block
     audit: Audit
     budget: Budget
     tape: Tape
@@ -331,9 +332,9 @@ class System:
     def _keeper(self, name: str) -> object:
         return getattr(self, KEPT_BY[name]) if name in KEPT_BY else self
 
-    def start_record(self, times: np.ndarray) -> None:
-        """Make room for a record at each of ``times`` (nt,) and forget the counts of earlier
-        runs.
+    def start_record(self, times: np.ndarray, room: int | None = None) -> None:
+        """Make room for records at ``times`` (nt,), all of them or so many at a time (one more
+        fits behind them), and forget the counts of earlier runs.
 
         Raises
         ------
@@ -341,11 +342,13 @@ class System:
             When there is not so much room.
         """
         self.times = np.ascontiguousarray(times, dtype=float)
-        row = self.nw + self.sizes.n_out
+        block, row = self.block, self.nw + self.sizes.n_out
+        block.first, block.row, block.hold = 0, 0, False
+        block.room = len(times) if room is None else min(len(times), room)
         try:
-            self.record = np.zeros(len(times) * row + 1)
+            self.record = np.zeros((block.room + 1) * row + 1)
         except MemoryError:
-            size = 8e-9 * len(times) * row
+            size = 8e-9 * block.room * row
             raise UsageError(
                 f"The output of {len(times)} times would take {size:.3g} GB of memory, which are "
                 "not there: fewer STEPS, a longer DTOUT."
@@ -354,6 +357,13 @@ class System:
             kept = (self.history, self.control, self.base, self.ra, self.rz, self.pz)
             self.undo = np.zeros(sum(each.size for each in kept) + self.ns)
         self.count[:] = 0
+
+    @property
+    def rows(self) -> np.ndarray:
+        """The records of the present block, (made, nw + n_out): from ``block.first`` on."""
+        row = self.nw + self.sizes.n_out
+        made = max(0, self.count.records - self.block.first)
+        return self.record[: made * row].reshape(made, row)
 
     def run(self, operation: int, phases: int = 0) -> int:
         """Do an operation of native code on the arrays as they are now; returns an outcome."""

@@ -1,6 +1,4 @@
-"""What accompanies a run: the balance of energy, the step whose work is counted, the tape; what it
-may spend.
-"""
+"""What accompanies a run: balance of energy, tape, rows, a state to return to, what it may spend."""
 
 from __future__ import annotations
 
@@ -124,3 +122,31 @@ class Budget(Record):
     events: int
     failures: int
     rejected: int
+
+
+class Block(Record):
+    """The rows that ``P.record`` has room for: the number of the ``first``, and how many.
+
+    ``row``: the next one where the method has returned; ``hold``: return ``HELD`` as soon as
+    nothing but the arrays says how to go on, also from outside.
+    """
+
+    first: int
+    room: int
+    row: int
+    hold: bool
+
+
+class Undoing(Record):
+    """What is known of the state that is kept (:mod:`adamslite.integrators.step_back`).
+
+    Whether one is, how often it was returned to, the time behind which the trouble is over, the
+    angle turned since, tries in vain, and how many of them there were when it was kept.
+    """
+
+    undoable: bool
+    backs: int
+    passed: float
+    turned: float
+    trouble: float
+    trouble_then: float

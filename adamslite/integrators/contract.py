@@ -13,7 +13,9 @@ converge to;
 6. counts what it does in ``P.count``;
 7. leaves the last accepted state behind, whatever the outcome;
 8. returns an outcome, one of ``DONE`` to ``CREEPING``, and keeps within ``P.budget``;
-9. where it declares so, pauses after ``settings.pause`` tries of a step, to be called again.
+9. where it declares so, pauses after ``settings.pause`` tries of a step, to be called again;
+10. where it declares so, returns ``FULL`` when ``P.record`` has no room for the next row, ``HELD``
+when ``P.block`` asks for it, to be called again: where and how often changes no number.
 
 Fields of :class:`Problem`; arrays have one dimension; nb bodies, n body unknowns, m multipliers, nv
 variables, ns states of DIFF, nw workspace entries:
@@ -50,7 +52,7 @@ tableau         coefficients of the Runge-Kutta formula
 parts           of the Newton matrix of the Radau formula;  LC pivots_c: its complex factors
 control         the integrator's own numbers, its ``Control``
 undo            the state before the last accepted one; empty without constraints
-record          (nt, nw + n_out) workspace and outputs at the output times
+record          (room + 1, nw + n_out) workspace and outputs at output times
 kind guard      of guards: how they are read; their values, numbered as the workspace
 sensors         of :class:`SensorRow`
 margin zone     how far guards are from changing; where the state is within zones
@@ -58,6 +60,7 @@ stops           times at which guards of the clock change
 paces           of :class:`Pace`
 lane_runs lane  of :class:`LaneRun`: loads that are evaluated by component; numbers of the bodies
                 for that, in rows of equal length;  lane_bodies: those with other loads
+block           the rows that ``record`` has room for (:class:`Block`)
 audit           balance of energy (:class:`Audit`);  uncounted: counts before it was drawn up
 tape            accepted states of the run (:class:`Tape`)
 budget          what a run may spend (:class:`Budget`)
@@ -67,7 +70,7 @@ pattern         per iteration whether it renews the Newton matrix, repeated; emp
 
 from __future__ import annotations
 
-from adamslite.integrators.audit_record import Audit, Budget, Tape
+from adamslite.integrators.audit_record import Audit, Block, Budget, Tape, Undoing
 from adamslite.integrators.event_rows import Search, SensorRow
 from adamslite.native.translate import Ints, Reals, Record, Rows
 
@@ -125,7 +128,9 @@ MODE_STATICS = 5.0
     PAUSED,
     STEP_LIMIT,
     CREEPING,
-) = range(13)
+    FULL,
+    HELD,
+) = range(15)
 
 
 # What is done to equations besides integration: see adamslite.equations.operations.
@@ -308,21 +313,6 @@ class Pace(Record):
     fence: float
 
 
-class Undoing(Record):
-    """What is known of the state that is kept (:mod:`adamslite.integrators.step_back`).
-
-    Whether one is, how often it was returned to, the time behind which the trouble is over, the
-    angle turned since, tries in vain, and how many of them there were when it was kept.
-    """
-
-    undoable: bool
-    backs: int
-    passed: float
-    turned: float
-    trouble: float
-    trouble_then: float
-
-
 class Problem(Record):
     """The data of a model, as above."""
 
@@ -394,6 +384,7 @@ class Problem(Record):
     lane_bodies: Ints
     tape: Tape
     budget: Budget
+    block: Block
 
 
 # Least length of ``P.work``.

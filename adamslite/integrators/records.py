@@ -20,10 +20,18 @@ LOOSE = 1e-4
 
 
 @native
+def has_room(P: Problem, row: int) -> bool:
+    """Whether the record has room for a row; none for one before its first, which was taken away
+    before a step was taken back.
+    """
+    return row >= P.block.first and row - P.block.first < P.block.room
+
+
+@native
 def write_record(P: Problem, row: int) -> None:
-    """Workspace and outputs into one row of the record."""
+    """Workspace and outputs into one row of the record, for which there is room."""
     nw, n_out = P.sizes.nw, P.sizes.n_out
-    o = row * (nw + n_out)
+    o = (row - P.block.first) * (nw + n_out)
     P.W[STEP_AT], P.W[ORDER_AT] = P.report.h, float(P.report.order)
     P.W[JACOBIANS_AT], P.W[RESIDUALS_AT] = float(P.count.jacobians), float(P.count.residuals)
     for i in range(nw):

@@ -137,6 +137,9 @@ class Method:
         Whether steps pass output times when INTERPOLATE does not say.
     pauses : bool
         Whether it pauses after ``settings.pause`` tries of a step, and continues when called again.
+    in_blocks : bool
+        Whether it returns where the record is full, or when it is asked to, and continues when
+        called again (rule 10 of :mod:`adamslite.integrators.contract`).
     least_step : float
         The least step without HMIN, in longest steps.
     by_component : bool
@@ -167,6 +170,7 @@ class Method:
     steps: str = VARIABLE
     interpolates: bool = True
     pauses: bool = False
+    in_blocks: bool = False
     least_step: float = 1e-14
     by_component: bool = False
     damping: Callable[[Settings], tuple[float, float, float]] | None = None

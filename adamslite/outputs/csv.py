@@ -56,7 +56,8 @@ def write_to(results: Results, stream: IO[str]) -> None:
         stream.write(f"# outcome: {results.outcome.name} {_one_line(results.message)}\n")
     header = csv.writer(stream, lineterminator="\n")
     header.writerow(["time", *results.names])
-    stream.writelines(lines(results.time[:, None], results.values))
+    for time, values in results.blocks():
+        stream.writelines(lines(time[:, None], values))
 
 
 def read(path: str | Path) -> Results:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from importlib import import_module
 from pathlib import Path
@@ -137,6 +137,25 @@ class Results:
         from adamslite.results.channels import unit_symbols
 
         return unit_symbols(self.meta.get("units", ""))
+
+    def blocks(self) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """Times (n,) and values (n, nc) of all rows, some at a time where they are in a file."""
+        yield self.time, self.values
+
+    def limited(self, columns: list[int]) -> Results:
+        """The results with some of the columns alone."""
+        names = tuple(self.names[k] for k in columns)
+        return replace(self, names=names, values=np.ascontiguousarray(self.values[:, columns]))
+
+    @property
+    def count(self) -> int:
+        """How many output times there are."""
+        return len(self.time)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Rows and columns of the values."""
+        return self.values.shape
 
     def save(self, path: str | Path) -> None:
         """Write the results to `path` in the format of its suffix.

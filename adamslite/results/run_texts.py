@@ -120,10 +120,10 @@ def restored(found: Mapping[str, str]) -> dict[str, Any]:
 
 def need_rows(results: Results) -> None:
     """Raise ValueError unless there is a row of values for each time."""
-    if results.values.shape != (len(results.time), len(results.names)):
+    if results.shape != (results.count, len(results.names)):
         raise ValueError(
-            f"{len(results.time)} times and {len(results.names)} names do not belong to values of "
-            f"shape {results.values.shape}"
+            f"{results.count} times and {len(results.names)} names do not belong to values of "
+            f"shape {results.shape}"
         )
 
 

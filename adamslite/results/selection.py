@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING
-
-import numpy as np
 
 from adamslite.errors import UsageError
 from adamslite.results.comparison import fits
@@ -36,8 +33,7 @@ def limited(results: Results, patterns: Iterable[str]) -> Results:
     """The results with these columns alone; patterns that mean none are passed over."""
     wanted = tuple(patterns)
     kept = [k for k, name in enumerate(results.names) if any(means(each, name) for each in wanted)]
-    names = tuple(results.names[k] for k in kept)
-    return replace(results, names=names, values=np.ascontiguousarray(results.values[:, kept]))
+    return results.limited(kept)
 
 
 def means(pattern: str, name: str) -> bool:

@@ -63,7 +63,7 @@ def gradient(
             raise UsageError(SENSED)
         if method not in SWEEPS:
             raise UsageError(ONLY.format(known=" and ".join(SWEEPS), method=method))
-        begun = (not (session.assembled or session.speeds), bool(session.history.pieces))
+        begun = (not (session.assembled or session.speeds), bool(session.history.stretches))
         made.update(_gradients(chain, system, SWEEPS[method], of, named, begun))
         return np.zeros(0)
 

@@ -85,7 +85,9 @@ class Ready(Exception):
 class Probe(Session):
     """Comes to where a dynamic analysis begins, and says what it begins with."""
 
-    def _integrated(self, system: System, times: np.ndarray, apart: float) -> Outcome:
+    def _integrated(
+        self, system: System, times: np.ndarray, apart: float, wanted: np.ndarray
+    ) -> Outcome:
         raise Ready(Snapshot.of(system))
 
     def _take(self, choice: MethodChoice) -> None:
@@ -103,7 +105,9 @@ class Taped(Session):
     def _take(self, choice: MethodChoice) -> None:
         super()._take(allowed(choice))
 
-    def _integrated(self, system: System, times: np.ndarray, apart: float) -> Outcome:
+    def _integrated(
+        self, system: System, times: np.ndarray, apart: float, wanted: np.ndarray
+    ) -> Outcome:
         if self.followed:
             raise UsageError(SEVERAL)
         beginning = Beginning(system)

@@ -3,15 +3,18 @@
 How long to run: --end, else SIMULATE in COMMANDS.acf, else in the .acf of the deck's name beside
 the deck, else in the deck itself. The results go to DECK's name with .csv in the current directory,
 or to the output prefix that COMMANDS.acf names, or to OUT, in the format of its suffix (`adamslite
-help formats` lists them); `-o -` writes a table to standard output. Beside it LINEAR/EIGENSOL
+help formats` lists them); `-o -` writes a table to standard output. What a run of more than some
+seconds has so far is in OUT.part: --resume goes on from there. Beside the results LINEAR/EIGENSOL
 writes OUT.modes.csv, with COORDS and KENERGY OUT.shapes.csv and OUT.kinetic.csv, LINEAR/STATEMAT
 its FILE or OUT.states.json (matrices A, B, C, D), SAVE its FILE; --page an HTML file that shows how
 it moves. All the command says goes to standard error.
 """
 
 import argparse
+import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,12 +24,17 @@ from adamslite.run_flags import add_deck, add_run_flags, run_options
 if TYPE_CHECKING:
     import numpy as np
 
+    from adamslite.analyses.history import Journal
+    from adamslite.outputs.part_file import PartFile
     from adamslite.results.results import Results
     from adamslite.scene import Scene
 
 #: What a file beside the results is, and its path.
 Written = tuple[str, Path]
 LINEARISED, PAGE = "linearised model", "page"
+
+#: Signals that end a run like Ctrl-C.
+ENDING = ("SIGTERM", "SIGHUP")
 
 #: OUT that means standard output.
 STDOUT = "-"
@@ -37,7 +45,7 @@ UNWRITTEN = "not written: it goes beside the results, and they went to no file"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of `adamslite solve`."""
-    add_deck(parser)
+    add_deck(parser, required=False)
     parser.add_argument("-o", "--output", metavar="OUT", help="result file, or - for stdout")
     parser.add_argument(
         "--outputs", metavar="PATTERN", nargs="+", default=[],
@@ -46,6 +54,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--page", metavar="FILE", nargs="?", const="",
         help="write a page that shows how it moves, too: FILE.html, or that of OUT",
+    )  # fmt: skip
+    parser.add_argument(
+        "--resume", metavar="OUT.part", type=Path,
+        help="go on with a run that was ended, as it was requested; other flags are not repeated",
     )  # fmt: skip
     add_run_flags(parser)
     talk = parser.add_argument_group("talk")
@@ -68,6 +80,7 @@ def run(args: argparse.Namespace) -> int:
     from adamslite.results.formats import format_of
     from adamslite.scene import load_scene, run_scene
 
+    part = _resumed(args)
     if args.output == STDOUT and args.summary == "json":
         raise UsageError(
             "'-o -' and '--summary json' both want standard output; give -o a file name"
@@ -81,10 +94,12 @@ def run(args: argparse.Namespace) -> int:
     page = _page(args, scene, output)
     if not args.quiet:
         _tell_warnings(scene)
+    journal = _journal(args, scene, output, part)
+    _end_by_signals()
     progress = Progress() if args.quiet else TalkingProgress()
     try:
         folder = None if output == STDOUT else Path(output).parent
-        results = run_scene(scene, _options(args), progress, folder)
+        results = run_scene(scene, _options(args), progress, folder, journal)
     finally:
         progress.close()
     written = _write(results, output, files)
@@ -94,10 +109,88 @@ def run(args: argparse.Namespace) -> int:
         _write_page(scene, results, page)
         written.insert(0, (PAGE, page))
     _summarize(scene, args, results, output, written)
+    if journal:
+        _close(journal, results)
     if not results.outcome.is_requested:
         return STOPPED_EARLY
     found = results.confirmation
     return DONE if found is None or found.confirmed else OUTSIDE_TOLERANCE
+
+
+def _resumed(args: argparse.Namespace) -> "PartFile | None":
+    """The file of the run to go on with, whose arguments are put into `args`."""
+    from adamslite.errors import UsageError
+
+    if args.resume is None and args.deck is None:
+        raise UsageError("give the name of a deck, or --resume OUT.part")
+    if args.resume is None:
+        return None
+    from adamslite.cli.commands.unfinished import resumed
+
+    return resumed(args)
+
+
+def _journal(
+    args: argparse.Namespace, scene: "Scene", output: str, found: "PartFile | None"
+) -> "Journal | None":
+    """Where the run is kept when it takes long; None where it cannot be resumed."""
+    from adamslite.analyses.history import Journal
+    from adamslite.outputs.whole_files import same_file
+
+    part = args.resume or Path(f"{output}.part")
+    written = Path(output)
+    if output == STDOUT or args.confirm or (written.exists() and not written.is_file()):
+        return None
+    if scene.deck.user.called or any(same_file(part, each) for each in scene.read):
+        return None
+    if part.exists() and not found:
+        from adamslite.cli.commands.unfinished import report
+
+        report(part)
+
+    def facts() -> Mapping[str, Any]:
+        from adamslite.cli.commands.unfinished import facts_of
+
+        return facts_of(args, scene)
+
+    if found:
+        from adamslite.cli.commands.unfinished import compare
+
+        compare(found, facts())
+    return Journal(part, facts, found)
+
+
+def _close(journal: "Journal", results: "Results") -> None:
+    """The file of the run stays when it was interrupted, and can go on."""
+    from adamslite.results.outcomes import Outcome
+
+    interrupted = results.outcome is Outcome.INTERRUPTED
+    journal.close(keep=interrupted)
+    if interrupted and journal.part:
+        sys.stderr.write(f"adamslite: `adamslite solve --resume {journal.path}` goes on with it\n")
+
+
+def _end_by_signals() -> None:
+    """Let SIGTERM and SIGHUP end the run like Ctrl-C, once, in a process of its own."""
+    import signal
+    import threading
+
+    if threading.current_thread() is not threading.main_thread():
+        return
+    known = [getattr(signal, name) for name in ENDING if hasattr(signal, name)]
+
+    def end(*_: object) -> None:
+        for each in known:
+            signal.signal(each, signal.SIG_IGN)
+        for number in (1, 2):  # a terminal that has gone cannot be written to
+            with suppress(OSError):
+                if os.isatty(number):
+                    os.dup2(os.open(os.devnull, os.O_WRONLY), number)
+        raise KeyboardInterrupt
+
+    for each in known:
+        if signal.getsignal(each) is signal.SIG_DFL:
+            signal.signal(each, end)
 
 
 def _page(args: argparse.Namespace, scene: "Scene", output: str) -> Path | None:

@@ -16,7 +16,7 @@ from adamslite.integrators.bdf.control import Control
 from adamslite.integrators.bdf.state import restore_state
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.linalg.plan import Plan
-from adamslite.integrators.stepping.output import is_due, record_next
+from adamslite.integrators.stepping.output import is_due, is_next, record_next
 from adamslite.native.translate import Reals, native
 
 
@@ -34,16 +34,18 @@ def interpolate(D: Reals, w: int, k: int, t: float, h: float, at: float, y: Real
 
 @native
 def record(P: Problem, L: Plan, C: Control) -> bool:
-    """Write every output time of the accepted step; False when accelerations are not determined."""
+    """Write the output times of the accepted step that there is room for; False when accelerations
+    are not determined.
+    """
     y, n, ns, before = P.trial, P.sizes.n, P.sizes.ns, C.row
     first = P.sizes.m + P.sizes.nv
-    while is_due(P, C):
+    while is_next(P, C):
         interpolate(P.history, C.width, C.order, C.t, C.h, P.times[C.row], y)
         for i in range(ns):
             P.z[first + i] = y[2 * n + i]
         if not record_next(P, L, C, y):
             return False
-    if C.row > before:
+    if C.row > before and not is_due(P, C):
         restore_state(P, C)
     return True
 

@@ -47,7 +47,7 @@ from adamslite.integrators.bdf.state import (
     start_values,
     tests_velocities,
 )
-from adamslite.integrators.contract import BROKEN_START, SINGULAR_MASS, Problem
+from adamslite.integrators.contract import BROKEN_START, FULL, SINGULAR_MASS, Problem
 from adamslite.integrators.events.dips import expected_share
 from adamslite.integrators.events.events import happened, start_events
 from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins
@@ -69,10 +69,13 @@ from adamslite.integrators.stepping.control import NOBODY, RUNNING
 from adamslite.integrators.stepping.outcome import (
     end_of_run,
     end_of_step,
+    goes_on,
+    is_cut_short,
     note_signature,
     note_try,
     passed_singularity,
 )
+from adamslite.integrators.stepping.output import is_due
 from adamslite.integrators.stepping.step_size import LONGER, has_failed, round_off, too_small
 from adamslite.native.translate import native, rare
 
@@ -84,11 +87,15 @@ EQUAL_STEPS = 1e-9
 def bdf(P: Problem, L: Plan) -> int:
     """Integrate to the end time; returns an outcome."""
     C = Control(P.control)
-    outcome = begin(P, L, C)
+    outcome = RUNNING
+    if not P.settings.begun:
+        P.settings.begun = True
+        outcome = begin(P, L, C)
     while outcome == RUNNING:
         outcome = advance(P, L, C)
-    restore_state(P, C)
-    P.report.t = C.t
+    if not goes_on(outcome):
+        restore_state(P, C)
+    P.report.t, P.block.row = C.t, C.row
     return outcome
 
 
@@ -120,6 +127,8 @@ def begin(P: Problem, L: Plan, C: Control) -> int:
 @native
 def advance(P: Problem, L: Plan, C: Control) -> int:
     """One try of a step: RUNNING to continue, whether accepted or not, else the outcome."""
+    if C.open:
+        return complete(P, L, C)
     outcome = end_of_run(P, C)
     if outcome != RUNNING:
         return outcome
@@ -171,15 +180,26 @@ def accept(P: Problem, L: Plan, C: Control, norm: float) -> int:
     move_on(P, C)
     note_violation(P, C.t)
     audit(P, L, C.t)
-    if not record(P, L, C):
+    C.accepted = norm
+    return complete(P, L, C)
+
+
+@native
+def complete(P: Problem, L: Plan, C: Control) -> int:
+    """Write the records of the accepted step, as far as there is room, and go on from its end."""
+    short = is_cut_short(P, C)
+    if not (short or record(P, L, C)):
         return SINGULAR_MASS
+    C.open = not short and is_due(P, C)
+    if C.open:
+        return FULL
     track(P)
     rebase(P, P.history, C.width, C.order)
     watch_order(P, C)
     if happened(P, C.t):
         return pass_on(P, L, C)
     keep_margins(P)
-    choose_order(P, C, norm)
+    choose_order(P, C, C.accepted)
     return RUNNING
 
 

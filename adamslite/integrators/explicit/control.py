@@ -27,6 +27,9 @@ class Control(StepControl):
     lazy                 whether the workspace follows the state at records only
     fastest, looked      circular frequency of the fastest vibration, steps since the last look
     third                the third order's error of the last step, against ERROR
+    end                  where the accepted step ends whose rows are being written,
+    first_row            the first of them, whether there are late stages for them, and
+    late, apart          whether each takes a step of its own
     steady, patience     steps since the last change of the formula, steps before the next one
     """
 
@@ -46,5 +49,9 @@ class Control(StepControl):
     fastest: float
     looked: int
     third: float
+    end: float
+    first_row: int
+    late: bool
+    apart: bool
     steady: int
     patience: int

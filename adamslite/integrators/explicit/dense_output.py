@@ -32,7 +32,7 @@ from adamslite.integrators.explicit.stages import (
     stages,
 )
 from adamslite.integrators.linalg.plan import Plan
-from adamslite.integrators.records import write_record
+from adamslite.integrators.records import has_room, write_record
 from adamslite.integrators.stepping.output import WITHIN
 from adamslite.native.translate import Reals, inline, native
 
@@ -43,31 +43,35 @@ DEFECT = 7.0
 
 @native
 def record(P: Problem, L: Plan, C: Control, t: float) -> bool:
-    """Write every output time up to ``t``, the end of the step."""
+    """Write the output times up to ``t``, the end of the step, that there is room for."""
     w = C.size
-    K = P.history
-    following, ready, apart, h = C.row, False, False, C.h
-    while following < P.times.size and P.times[following] <= t + WITHIN * h:
-        at = P.times[following]
+    K, h = P.history, C.h
+    while is_within(P, C, t) and has_room(P, C.row):
+        at = P.times[C.row]
         if at < t - WITHIN * h:
             x, y = (at - C.t) / h, K[BETWEEN * w :]
-            if not (ready or C.quick) and not late_stages(P, L, C, h):
+            if not (C.late or C.quick) and not late_stages(P, L, C, h):
                 return False
-            ready = True
-            if not apart:
+            C.late = True
+            if not C.apart:
                 interpolated(P, C, h, x, y)
                 slope(P, C, h, x, K[SLOPE * w :])
                 if not exact_rates(P, L, C, at, y, P.trial):
                     return False
-                apart = defect(P, C, h) > DEFECT * P.settings.error
-            if apart and not step_to(P, L, C, at, x * h):
+                C.apart = defect(P, C, h) > DEFECT * P.settings.error
+            if C.apart and not step_to(P, L, C, at, x * h):
                 return False
-        elif ready and not exact_rates(P, L, C, at, K[NEXT_STATE * w :], P.trial):
+        elif C.late and not exact_rates(P, L, C, at, K[NEXT_STATE * w :], P.trial):
             return False
-        write_record(P, following)
-        following += 1
-    C.row = following
+        write_record(P, C.row)
+        C.row += 1
     return True
+
+
+@native
+def is_within(P: Problem, C: Control, t: float) -> bool:
+    """Whether the next output time lies in the step that ends at ``t``."""
+    return C.row < P.times.size and P.times[C.row] <= t + WITHIN * C.h
 
 
 @native

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from adamslite.integrators.accelerations import accelerations, put_state
 from adamslite.integrators.audit.balance import audit
-from adamslite.integrators.contract import BROKEN_START, SINGULAR_MASS, Problem
+from adamslite.integrators.contract import BROKEN_START, FULL, HELD, SINGULAR_MASS, Problem
 from adamslite.integrators.events.events import happened, start_events
 from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins
 from adamslite.integrators.events.stops import (
@@ -31,7 +31,7 @@ from adamslite.integrators.events.stops import (
 )
 from adamslite.integrators.explicit.choice import begin_with_formula, choose_formula, stays
 from adamslite.integrators.explicit.control import BODIES, LANES, MASSES, TIED, Control
-from adamslite.integrators.explicit.dense_output import record
+from adamslite.integrators.explicit.dense_output import is_within, record
 from adamslite.integrators.explicit.error import (
     LEAST_ERROR,
     choose_step,
@@ -67,6 +67,7 @@ from adamslite.integrators.stepping.control import NOBODY, RUNNING
 from adamslite.integrators.stepping.outcome import (
     end_of_run,
     end_of_step,
+    is_cut_short,
     note_signature,
     note_try,
     passed_singularity,
@@ -88,9 +89,9 @@ def explicit(P: Problem, L: Plan) -> int:
         outcome = begin(P, L, C)
     while outcome == RUNNING:
         outcome = advance(P, L, C)
-    if C.lazy:
+    if C.lazy and outcome != FULL and outcome != HELD:
         restore_state(P, C)
-    P.report.t = C.t
+    P.report.t, P.block.row = C.t, C.row
     return outcome
 
 
@@ -171,6 +172,8 @@ def start_state(P: Problem, C: Control) -> None:
 @native
 def advance(P: Problem, L: Plan, C: Control) -> int:
     """One try of a step: RUNNING to continue, whether accepted or not, else the outcome."""
+    if C.open:
+        return complete(P, L, C)
     outcome = end_of_run(P, C)
     if outcome != RUNNING:
         return outcome
@@ -248,11 +251,23 @@ def accept(P: Problem, L: Plan, C: Control, t: float, error: float) -> int:
     note_violation(P, t)
     audit(P, L, t)
     keep_solution(P)
-    row = C.row
-    if not record(P, L, C, t):
+    C.end, C.first_row, C.late, C.apart = t, C.row, False, False
+    C.accepted = error
+    return complete(P, L, C)
+
+
+@native
+def complete(P: Problem, L: Plan, C: Control) -> int:
+    """Write the records of the accepted step, as far as there is room, and go on from its end."""
+    short = is_cut_short(P, C)
+    if not (short or record(P, L, C, C.end)):
         return SINGULAR_MASS
-    move_on(P, C, t, C.row > row)
-    if happened(P, t):
+    C.open = not short and is_within(P, C, C.end)
+    if C.open:
+        return FULL
+    error = C.accepted
+    move_on(P, C, C.end, C.row > C.first_row)
+    if happened(P, C.t):
         if C.lazy:
             restore_state(P, C)
         return pass_on(P, L, C)

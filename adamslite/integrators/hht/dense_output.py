@@ -11,23 +11,28 @@ from adamslite.integrators.contract import Problem
 from adamslite.integrators.hht.control import Control
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import vector_rates, velocities
-from adamslite.integrators.stepping.output import is_due, record_next
+from adamslite.integrators.stepping.output import is_due, is_next, record_next
 from adamslite.native.translate import Reals, native
 
 
 @native
 def record(P: Problem, L: Plan, C: Control) -> bool:
-    """Write every output time of the accepted step; False when accelerations are not determined."""
+    """Write the output times of the accepted step that there is room for; False when accelerations
+    are not determined.
+    """
     n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     if not is_due(P, C):
         return True
     h, end, y, good = C.h, P.trial[0:], P.trial[2 * n + ns :], True
-    for k in range(ns):
-        end[2 * n + k] = P.z[first + k]
-    vector_rates(P, P.q, P.u, end[n:])
-    while good and is_due(P, C):
+    if not C.open:
+        for k in range(ns):
+            end[2 * n + k] = P.z[first + k]
+        vector_rates(P, P.q, P.u, end[n:])
+    while good and is_next(P, C):
         between(P, h, min(1.0, 1.0 + (P.times[C.row] - C.t) / h), end, y)
         good = record_next(P, L, C, y)
+    if good and is_due(P, C):
+        return True
     for k in range(ns):
         P.rd[k] = P.history[3 * n + ns + k]
         P.z[first + k] = end[2 * n + k]

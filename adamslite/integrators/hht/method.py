@@ -30,7 +30,7 @@ from __future__ import annotations
 
 from adamslite.integrators.accelerations import accelerations
 from adamslite.integrators.audit.balance import audit
-from adamslite.integrators.contract import BROKEN_START, PAUSED, SINGULAR_MASS, Problem
+from adamslite.integrators.contract import BROKEN_START, FULL, SINGULAR_MASS, Problem
 from adamslite.integrators.events.events import happened, start_events
 from adamslite.integrators.events.guards import hold_watch, keep_margins
 from adamslite.integrators.events.stops import horizon, step_limit
@@ -58,12 +58,14 @@ from adamslite.integrators.stepping.control import NOBODY, RUNNING
 from adamslite.integrators.stepping.outcome import (
     end_of_run,
     end_of_step,
+    goes_on,
+    is_cut_short,
     near_singularity,
     note_signature,
     note_try,
     passed_singularity,
 )
-from adamslite.integrators.stepping.output import record_start
+from adamslite.integrators.stepping.output import is_due, record_start
 from adamslite.native.translate import native, rare
 
 
@@ -77,9 +79,9 @@ def hht(P: Problem, L: Plan) -> int:
         outcome = begin(P, L, C)
     while outcome == RUNNING:
         outcome = advance(P, L, C)
-    if outcome != PAUSED:
+    if not goes_on(outcome):
         restore_state(P, C)
-    P.report.t = C.t
+    P.report.t, P.block.row = C.t, C.row
     return outcome
 
 
@@ -108,6 +110,8 @@ def begin(P: Problem, L: Plan, C: Control) -> int:
 @native
 def advance(P: Problem, L: Plan, C: Control) -> int:
     """One try of a step: RUNNING to continue, whether accepted or not, else the outcome."""
+    if C.open:
+        return complete(P, L, C)
     outcome = end_of_run(P, C)
     if outcome != RUNNING:
         return outcome
@@ -142,7 +146,18 @@ def accept(P: Problem, L: Plan, C: Control, norm: float) -> int:
     keep_rates(P)
     note_violation(P, C.t)
     audit(P, L, C.t)
-    recorded = record(P, L, C)
+    C.accepted = norm
+    return complete(P, L, C)
+
+
+@native
+def complete(P: Problem, L: Plan, C: Control) -> int:
+    """Write the records of the accepted step, as far as there is room, and go on from its end."""
+    short = is_cut_short(P, C)
+    recorded = short or record(P, L, C)
+    C.open = recorded and not short and is_due(P, C)
+    if C.open:
+        return FULL
     track(P)
     start_from_here(P)
     if not recorded:
@@ -150,5 +165,5 @@ def accept(P: Problem, L: Plan, C: Control, norm: float) -> int:
     if happened(P, C.t):
         return pass_on(P, L, C)
     keep_margins(P)
-    choose_step(P, C, norm)
+    choose_step(P, C, C.accepted)
     return RUNNING

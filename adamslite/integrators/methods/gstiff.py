@@ -33,6 +33,7 @@ register(
         family=FAMILY,
         explicit=False,
         formulations=("SI2", "I3"),
+        in_blocks=True,
         prepare=prepare,
         arguments=CORRECTOR
         | {
@@ -58,6 +59,7 @@ register(
         family=FAMILY,
         explicit=False,
         formulations=("SI2", "I3"),
+        in_blocks=True,
         prepare=prepare,
         steps=FIXED,
         arguments=CORRECTOR

@@ -64,6 +64,7 @@ HHT = Method(
     pauses=True,
     damping=damping_of_hht,
     unfit=ringing,
+    in_blocks=True,
     prepare=prepare,
     arguments={
         "ERROR": "local error of q and states",

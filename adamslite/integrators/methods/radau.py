@@ -31,6 +31,7 @@ register(
         family="Radau",
         explicit=False,
         formulations=("SI2",),
+        in_blocks=True,
         prepare=prepare,
         interpolates=False,  # its polynomial within a step has order 3 only
         arguments={

@@ -67,6 +67,7 @@ register(
         explicit=True,
         pauses=True,
         by_component=True,
+        in_blocks=True,
         prepare=prepare,
         arguments={
             "ERROR": "local error of q, u and states",

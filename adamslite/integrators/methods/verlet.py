@@ -44,6 +44,7 @@ register(
         least_step=1e-8,
         by_component=True,
         pauses=True,
+        in_blocks=True,
         prepare=prepare,
         arguments={
             "ERROR": "local error of q, unless HINIT is given",

@@ -9,16 +9,18 @@ from adamslite.integrators.radau.coefficients import NODE
 from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.history import ORIGIN, RATES
 from adamslite.integrators.radau.stages import stage_z
-from adamslite.integrators.stepping.output import is_due, record_next
+from adamslite.integrators.stepping.output import is_next, record_next
 from adamslite.native.translate import Reals, native
 
 
 @native
 def record(P: Problem, L: Plan, C: Control) -> bool:
-    """Write every output time of the accepted step; False when accelerations are not determined."""
+    """Write the output times of the accepted step that there is room for; False when accelerations
+    are not determined.
+    """
     n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     y, w, h = P.trial[0:], 2 * n + ns, C.h_last
-    while is_due(P, C):
+    while is_next(P, C):
         collocated(P, P.history, w, min(1.0, 1.0 + (P.times[C.row] - C.t) / h), y)
         for i in range(n):
             y[i] += P.history[ORIGIN * w + i]

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from adamslite.integrators.accelerations import accelerations, put_state
 from adamslite.integrators.audit.balance import audit
-from adamslite.integrators.contract import BROKEN_START, SINGULAR_MASS, Problem
+from adamslite.integrators.contract import BROKEN_START, FULL, SINGULAR_MASS, Problem
 from adamslite.integrators.events.events import happened, start_events
 from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins
 from adamslite.integrators.events.stops import horizon
@@ -55,12 +55,14 @@ from adamslite.integrators.stepping.outcome import (
     ALMOST,
     end_of_run,
     end_of_step,
+    goes_on,
+    is_cut_short,
     near_singularity,
     note_signature,
     note_try,
     passed_singularity,
 )
-from adamslite.integrators.stepping.output import record_start
+from adamslite.integrators.stepping.output import is_due, record_start
 from adamslite.integrators.stepping.step_size import too_small
 from adamslite.native.translate import native, rare
 
@@ -71,11 +73,15 @@ ORDER = 5
 def radau(P: Problem, L: Plan) -> int:
     """Integrate to the end time; returns an outcome."""
     C = Control(P.control)
-    outcome = begin(P, L, C)
+    outcome = RUNNING
+    if not P.settings.begun:
+        P.settings.begun = True
+        outcome = begin(P, L, C)
     while outcome == RUNNING:
         outcome = advance(P, L, C)
-    restore_state(P, C)
-    P.report.t = C.t
+    if not goes_on(outcome):
+        restore_state(P, C)
+    P.report.t, P.block.row = C.t, C.row
     return outcome
 
 
@@ -112,6 +118,8 @@ def begin(P: Problem, L: Plan, C: Control) -> int:
 @native
 def advance(P: Problem, L: Plan, C: Control) -> int:
     """One try of a step: RUNNING to continue, whether accepted or not, else the outcome."""
+    if C.open:
+        return complete(P, L, C)
     outcome = end_of_run(P, C)
     if outcome != RUNNING:
         return outcome
@@ -160,16 +168,27 @@ def accept(P: Problem, L: Plan, C: Control, error: float) -> int:
     note_violation(P, t)
     audit(P, L, t)
     C.t, C.h_last = t, h
-    good = record(P, L, C)
+    C.accepted = error
+    return complete(P, L, C)
+
+
+@native
+def complete(P: Problem, L: Plan, C: Control) -> int:
+    """Write the records of the accepted step, as far as there is room, and go on from its end."""
+    short = is_cut_short(P, C)
+    good = short or record(P, L, C)
+    C.open = good and not short and is_due(P, C)
+    if C.open:
+        return FULL
     put_end(P, C)
     track(P)
     count_from_here(P)
     keep_stages(P)
-    put_state(P, t, P.q, P.u, P.a, P.z, P.rd)
-    choose_step(P, C, error)
+    put_state(P, C.t, P.q, P.u, P.a, P.z, P.rd)
+    choose_step(P, C, C.accepted)
     if not good:
         return SINGULAR_MASS
-    if happened(P, t):
+    if happened(P, C.t):
         return pass_on(P, L, C)
     keep_margins(P)
     if P.search.taken:

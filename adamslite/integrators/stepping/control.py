@@ -19,6 +19,8 @@ class StepControl(Record):
     retries, blamed      failures of the corrector in a row, the unknown that moved most
     norm                 error of the last rejected try (0: none)
     signature            signs of the pivots of the acceleration matrix
+    open                 whether rows of the accepted step are still to be written, and
+    accepted             its error, with which the next step is chosen behind them
     """
 
     t: float
@@ -29,3 +31,5 @@ class StepControl(Record):
     blamed: int
     norm: float
     signature: int
+    open: bool
+    accepted: float

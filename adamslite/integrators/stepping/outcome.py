@@ -6,6 +6,8 @@ from adamslite.integrators.accelerations import mass_signature, mass_vanishes
 from adamslite.integrators.contract import (
     CHATTERING,
     DONE,
+    FULL,
+    HELD,
     INTERRUPTED,
     NEWTON_FAILED,
     PAUSED,
@@ -32,7 +34,7 @@ OVERFLOW = 1e12
 @native
 def end_of_run(P: Problem, C: StepControl) -> int:
     """DONE at the end time, INTERRUPTED by the user, STEP_LIMIT or CREEPING where the budget is
-    spent, PAUSED after so many tries, else RUNNING.
+    spent, HELD where a state is asked for, PAUSED after so many tries, else RUNNING.
     """
     over = spent(P, C.t)
     if C.t >= P.settings.t_end:
@@ -41,8 +43,24 @@ def end_of_run(P: Problem, C: StepControl) -> int:
         return INTERRUPTED
     if over != RUNNING:
         return over
+    if P.block.hold:
+        return HELD
     tries = P.count.steps + P.count.rejected + P.count.failures
     return PAUSED if P.settings.pause > 0 and tries >= P.settings.pause else RUNNING
+
+
+@native
+def goes_on(outcome: int) -> bool:
+    """Whether the method will be called again, and finds everything as it has left it."""
+    return outcome == PAUSED or outcome == FULL or outcome == HELD
+
+
+@native
+def is_cut_short(P: Problem, C: StepControl) -> bool:
+    """Whether the user ends the run while rows of one step are written block by block; a redundant
+    row that opens ends it behind all of them.
+    """
+    return C.open and P.settings.stop and P.report.torn == 0
 
 
 @native

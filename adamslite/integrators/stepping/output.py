@@ -5,7 +5,7 @@ from __future__ import annotations
 from adamslite.integrators.accelerations import accelerations
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.linalg.plan import Plan
-from adamslite.integrators.records import write_record
+from adamslite.integrators.records import has_room, write_record
 from adamslite.integrators.stepping.control import StepControl
 from adamslite.native.translate import Reals, native
 
@@ -17,6 +17,12 @@ WITHIN = 1e-9
 def is_due(P: Problem, C: StepControl) -> bool:
     """Whether the next output time lies in the accepted step, which ends at t."""
     return C.row < P.times.size and P.times[C.row] <= C.t + WITHIN * C.h_last
+
+
+@native
+def is_next(P: Problem, C: StepControl) -> bool:
+    """Whether the next output time lies in the accepted step, and there is room for its row."""
+    return is_due(P, C) and has_room(P, C.row)
 
 
 @native

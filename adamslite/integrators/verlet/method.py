@@ -21,6 +21,8 @@ from adamslite.integrators.accelerations import put_state
 from adamslite.integrators.audit.balance import audit_leap
 from adamslite.integrators.contract import (
     DONE,
+    FULL,
+    HELD,
     INTERRUPTED,
     LOADS,
     PAUSED,
@@ -41,7 +43,7 @@ from adamslite.integrators.events.stops import (
 from adamslite.integrators.linalg.norms import exceeds
 from adamslite.integrators.linalg.plan import HUGE, Plan
 from adamslite.integrators.motion_equations import put_time, run_groups, track
-from adamslite.integrators.records import write_record
+from adamslite.integrators.records import has_room, write_record
 from adamslite.integrators.step_back import bring_audit_back, keep_audit
 from adamslite.integrators.stepping.budget import note_advance, would_overspend
 from adamslite.integrators.stepping.control import RUNNING
@@ -86,8 +88,13 @@ def verlet(P: Problem, L: Plan) -> int:
         P.settings.begun = True
         begin(P, C)
     while C.row < P.times.size:
+        P.block.row = C.row
         if P.settings.stop:
             return INTERRUPTED
+        if not has_room(P, C.row):
+            return FULL
+        if P.block.hold:
+            return HELD
         outcome = advance(P, L, C)
         if outcome == PAUSED:
             return PAUSED

@@ -1,0 +1,135 @@
+"""Runs that did not end: what their file says of them, and going on with one."""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import json
+import os
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import adamslite
+from adamslite.errors import FormatError, UsageError
+from adamslite.outputs.part_file import DAMAGED, SUFFIX, PartFile
+from adamslite.run_flags import run_options
+
+if TYPE_CHECKING:
+    from adamslite.scene import Scene
+
+#: Arguments of `solve` that come from the file, with what they are when they are not given.
+KEPT: Mapping[str, Any] = {"outputs": [], "page": None, "values": []}
+#: Those of the run itself.
+OPTIONS = (
+    "end", "steps", "integrator", "formulation", "error", "hmax", "no_reduction", "audit",
+    "cpu_limit", "max_steps",
+)  # fmt: skip
+#: What must be as it was, and what to say where it is not.
+SAME = {
+    "program": "it was begun by another version of adamslite, whose numbers may differ",
+    "processor": "it was begun on another kind of processor, whose last digits may differ",
+    "source": "deck, commands or tables have changed since",
+}
+
+
+def facts_of(args: argparse.Namespace, scene: Scene) -> Mapping[str, Any]:
+    """What a run is of, and how it was requested."""
+    from adamslite.caching.program import program
+    from adamslite.native import processor
+    from adamslite.results.source import source_of
+
+    source = source_of(scene.deck, scene.commands)
+    texts = [source.deck, source.commands, list(source.user), source.table_texts()]
+    digest = hashlib.sha256(json.dumps(texts).encode(errors="surrogatepass")).hexdigest()
+    commands = scene.commands_path
+    return {
+        "program": program(), "version": adamslite.__version__, "processor": processor.name(),
+        "source": digest, "deck": os.path.abspath(scene.deck_path),
+        "commands": os.path.abspath(commands) if commands else None, "options": run_options(args),
+        **{name: getattr(args, name) for name in KEPT},
+    }  # fmt: skip
+
+
+def report(path: Path) -> None:
+    """Say that a run of this name did not end.
+
+    Raises
+    ------
+    UsageError
+        When it is running.
+    """
+    try:
+        part = PartFile.open(path)
+    except (FormatError, OSError) as fault:
+        sys.stderr.write(f"adamslite: an earlier run has left {path} behind: {fault}\n")
+        return
+    reached = f"t = {float(part.state['time']):.6g} of {float(part.state['end']):g}"
+    part.close()
+    sys.stderr.write(
+        f"adamslite: a run that did not end ({reached}) has left {path} behind: "
+        f"`adamslite solve --resume {path}` goes on with it; if this run takes long, it moves it "
+        f"to {path}.old\n"
+    )
+
+
+def resumed(args: argparse.Namespace) -> PartFile:
+    """The file of the run to go on with, whose arguments are put into ``args``.
+
+    Raises
+    ------
+    UsageError
+        When other arguments are given with it.
+    FormatError
+        When it is damaged.
+    """
+    path: Path = args.resume
+    name = path.name.removesuffix(".old")
+    if not name.endswith(SUFFIX):
+        raise UsageError(f"--resume {path}: the file of a run that did not end is OUT{SUFFIX}")
+    given = [f"--{word.replace('_', '-')}" for word in (*run_options(args), *_given(args))]
+    if given or args.output:
+        words = ", ".join([*given, *(["-o"] if args.output else [])])
+        raise UsageError(f"--resume goes on with a run as it was requested; leave out {words}")
+    part = PartFile.open(path)
+    try:
+        facts = part.state["facts"]
+        for option, value in {**_checked(facts["options"]), **_texts(facts)}.items():
+            setattr(args, option, value)
+        args.deck = args.deck or Path(str(facts["deck"]))
+        kept = facts["commands"]
+        args.commands = args.commands or (Path(str(kept)) if kept else None)
+        args.output = str(path.with_name(name.removesuffix(SUFFIX)))
+    except (KeyError, TypeError, ValueError, AttributeError) as fault:
+        part.close()
+        raise FormatError(DAMAGED.format(path=path, why=fault)) from None
+    if not args.quiet:
+        sys.stderr.write(f"going on at t = {float(part.state['time']):.6g}\n")
+    return part
+
+
+def _given(args: argparse.Namespace) -> list[str]:
+    given = [name for name in KEPT if getattr(args, name) != KEPT[name]]
+    return [{"values": "set"}.get(name, name) for name in given] + ["user"] * bool(args.user)
+
+
+def _checked(options: Mapping[str, Any]) -> dict[str, Any]:
+    """Options of a run; nothing else."""
+    return {name: options[name] for name in OPTIONS if name in options}
+
+
+def _texts(facts: Mapping[str, Any]) -> dict[str, Any]:
+    lists = {name: [str(each) for each in facts[name]] for name in ("outputs", "values")}
+    page = facts["page"]
+    return {**lists, "page": None if page is None else str(page)}
+
+
+def compare(part: PartFile, now: Mapping[str, Any]) -> None:
+    """Raises UsageError when a run would not go on to the same numbers."""
+    kept = part.state["facts"]
+    for name, sentence in SAME.items():
+        if kept.get(name) != now[name]:
+            path = part.path
+            part.close()
+            raise UsageError(f"{path} cannot be resumed: {sentence}")

@@ -1,0 +1,82 @@
+"""Runs that are killed and resumed, with states every few hundredths of a second."""
+
+from __future__ import annotations
+
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+#: The command line with states from the start on, and small blocks.
+OFTEN = """\
+import sys
+from adamslite.analyses import dynamic, history
+history.SETTLED, history.EVERY, history.LONG, dynamic.ROOM = 0.0, 0.02, 0.3, 3000
+dynamic.WATCH_INTERVAL = 0.02
+from adamslite.cli.main import main
+sys.exit(main())
+"""
+#: A start takes longer than this only where something hangs [s].
+PATIENCE = 240.0
+
+
+def command(*words: str) -> list[str]:
+    """`adamslite solve` with states from the start on."""
+    return [sys.executable, "-c", OFTEN, "solve", "--quiet", *words]
+
+
+def solved(deck: Path, *words: str) -> bytes:
+    """The table of an undisturbed run, as everybody has it."""
+    output = deck.with_name("undisturbed.csv")
+    whole = [sys.executable, "-m", "adamslite", "solve", "--quiet", str(deck), "-o", str(output)]
+    done = subprocess.run([*whole, *words], capture_output=True, text=True, cwd=deck.parent)
+    assert done.returncode == 0, done.stderr
+    return output.read_bytes()
+
+
+def killed(deck: Path, seed: int, kills: int, *words: str) -> tuple[bytes, int]:
+    """The table of a run that is killed ``kills`` times at random instants, and each time resumed;
+    how often it was alive then.
+    """
+    chance, output = random.Random(seed), deck.with_name(f"killed{seed}.csv")
+    part, hits = Path(f"{output}.part"), 0
+    output.unlink(missing_ok=True)
+    for _ in range(kills):
+        went_on = part.exists()
+        hits += _kill(_words(deck, output, part, words), part, went_on, chance.uniform(0.0, 0.6))
+        if output.exists():
+            break
+    if not output.exists():
+        done = subprocess.run(
+            _words(deck, output, part, words), capture_output=True, text=True, cwd=deck.parent
+        )
+        assert done.returncode == 0, done.stderr
+    assert not part.exists()
+    return output.read_bytes(), hits
+
+
+def _words(deck: Path, output: Path, part: Path, words: tuple[str, ...]) -> list[str]:
+    if part.exists():
+        return command("--resume", str(part))
+    return command(str(deck), "-o", str(output), *words)
+
+
+def _kill(words: list[str], part: Path, went_on: bool, after: float) -> bool:
+    """Start a run, and kill it some time after there is a state; whether it was still running."""
+    process = subprocess.Popen(words, cwd=part.parent, stderr=subprocess.PIPE)
+    before = part.stat().st_mtime_ns if went_on else 0
+    end = time.monotonic() + PATIENCE
+    while process.poll() is None and time.monotonic() < end:
+        if part.exists() and part.stat().st_size > 4096 and part.stat().st_mtime_ns != before:
+            time.sleep(after)
+            break
+        time.sleep(0.005)
+    alive = process.poll() is None
+    if alive:
+        os.kill(process.pid, signal.SIGKILL)
+    error = process.communicate()[1]
+    assert alive or process.returncode == 0, error.decode()
+    return alive
