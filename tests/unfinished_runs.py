@@ -47,9 +47,9 @@ def killed(deck: Path, seed: int, kills: int, *words: str) -> tuple[bytes, int]:
     for _ in range(kills):
         went_on = part.exists()
         hits += _kill(_words(deck, output, part, words), part, went_on, chance.uniform(0.0, 0.6))
-        if output.exists():
+        if output.exists() and not part.exists():
             break
-    if not output.exists():
+    if part.exists() or not output.exists():  # it may have been killed between both
         done = subprocess.run(
             _words(deck, output, part, words), capture_output=True, text=True, cwd=deck.parent
         )

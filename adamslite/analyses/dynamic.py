@@ -228,11 +228,6 @@ def integrate(
     return outcome
 
 
-def largest_step(times: np.ndarray) -> float:
-    """Between output times (nt,)."""
-    return float(np.diff(times).max()) if len(times) > 1 else 0.0
-
-
 def _scheduled(system: System, times: np.ndarray, settings: Settings, hmax: float) -> np.ndarray:
     """Put stops and paces in place; the output times up to where a motion jumps."""
     clock, fine = Clock(system.kernels), not settings.tests_velocities(system.holonomic > 0)

@@ -28,7 +28,7 @@ SETTLED, EVERY, LONG = 5.0, 5.0, 1.0
 #: How long an interruption waits for the last state [s].
 PATIENCE = 0.5
 #: Numbers of results that are kept in memory.
-MOST = 2**22
+MOST = 2**21
 # Numbers of a block: what is found block by block is the same wherever the rows are kept.
 BLOCK = 2**20
 

@@ -27,6 +27,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from adamslite.analyses.output_times import largest_step
 from adamslite.errors import UsageError
 from adamslite.integrators import contract
 from adamslite.integrators.contract import SPECTRUM
@@ -216,7 +217,7 @@ def _picked(system: System, times: np.ndarray, error: float) -> tuple[str, ...]:
     tied, meeting = what_ties(system), what_meets(system)
     if tied and meeting:
         return "RADAU", f"implicit, because {meeting}, and {tied}", "RKF45"
-    pace = float(np.diff(times).max()) if len(times) > 1 else 0.0
+    pace = largest_step(times)
     radians = fastest(system, float(times[0])) * pace
     reason = f"its fastest oscillation turns {radians:.3g} rad in an output step"
     if not radians <= STEPS_WORTH:

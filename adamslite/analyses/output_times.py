@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
 # A last interval shorter than this share of the whole is no interval of its own.
 ROUND_OFF = 1e-9
+# Times that are looked at together.
+PART = 2**16
 
 
 def output_times(command: Simulate, start: float) -> np.ndarray:
@@ -50,3 +52,9 @@ def spread_times(start: float, end: float, steps: int | None, dtout: float | Non
         if abs(steps - whole) > ROUND_OFF * max(1.0, whole):
             return np.append(np.arange(start, end - ROUND_OFF * dtout, dtout), end)
     return np.linspace(start, end, (steps or STEPS) + 1)
+
+
+def largest_step(times: np.ndarray) -> float:
+    """Between output times (nt,), of which there may be too many for another array as long."""
+    parts = (times[first : first + PART + 1] for first in range(0, len(times) - 1, PART))
+    return max((float(np.diff(part).max()) for part in parts), default=0.0)

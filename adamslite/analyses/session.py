@@ -22,11 +22,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from adamslite.analyses.delays import NO_PAST, require_no_delay
-from adamslite.analyses.dynamic import integrate, largest_step, make_ready
+from adamslite.analyses.dynamic import integrate, make_ready
 from adamslite.analyses.initial.conditions import consistent_velocities
 from adamslite.analyses.initial.redundancy import badly_chosen, leave_out_redundant
 from adamslite.analyses.method_choice import choose_method
-from adamslite.analyses.output_times import output_times
+from adamslite.analyses.output_times import largest_step, output_times
 from adamslite.analyses.planar_reduction import in_its_plane
 from adamslite.analyses.sensors import AT_TIMES, require_none
 from adamslite.analyses.session_state import SessionState

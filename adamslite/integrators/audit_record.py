@@ -1,4 +1,4 @@
-"""What accompanies a run: balance of energy, tape, rows, a state to return to, what it may spend."""
+"""What goes with a run: balance of energy, tape, rows, a state to return to, what it may spend."""
 
 from __future__ import annotations
 
