@@ -31,6 +31,7 @@ _HOME = {
     "DeckWarning": "errors",
     "Outcome": "results.outcomes",
     "Results": "results.results",
+    "allow_path": "api.tools",
     "assemble": "model.model",
     "cable": "api.tools",
     "cache": "api.tools",

@@ -48,10 +48,10 @@ def origin_of(deck: Path, commands: Path | None) -> Origin | None:
         paths = [deck, commands] if commands else [deck]
         if not all(path.is_file() for path in paths):
             return None  # a pipe can be read once only
-        contents = [path.read_bytes() for path in paths]
+        contents = [path.read_bytes() for path in paths if path.stat().st_size <= MOST]
     except (OSError, UsageError):  # reported where they stand in the way
         return None
-    if not facts[0] or sum(map(len, contents)) > MOST:
+    if not facts[0] or len(contents) < len(paths) or sum(map(len, contents)) > MOST:
         return None
     found = hashlib.sha256("\0".join([*facts, *map(str, paths)]).encode(errors="surrogateescape"))
     for content in contents:
@@ -60,9 +60,22 @@ def origin_of(deck: Path, commands: Path | None) -> Origin | None:
 
 
 def command_file_beside(deck_path: Path) -> Path | None:
-    """Return the command file that has the name of the deck, if there is one."""
+    """Return the command file that has the name of the deck, if there is one.
+
+    Raises
+    ------
+    UsageError
+        When it is a link to a file elsewhere, which the user has not named.
+    """
     candidates = (deck_path.with_suffix(suffix) for suffix in (".acf", ".ACF"))
-    return next((path for path in candidates if path.is_file()), None)
+    found = next((path for path in candidates if path.is_file()), None)
+    if found and found.is_symlink():
+        from adamslite.language.file_name import leads_out
+
+        if not leads_out(found):
+            return found
+        raise UsageError(f"'{found}' is a link that leads out of its folder; name it to use it")
+    return found
 
 
 def find(origin: Origin) -> Read | None:

@@ -1,4 +1,5 @@
-"""How options are written: `--end T` on the command line, `end=T` in Python.
+"""How messages are written: options as `--end T` on the command line and `end=T` in Python, and
+control characters as their pictures.
 
 Messages are written as the command line has them.  Shown to a user of Python they are translated:
 
@@ -28,6 +29,7 @@ PHRASES = {
         "give the command file to the run: `adamslite.simulate(DECK, commands=FILE)`",
     "`adamslite solve -o FILE`": "`Results.save`",
     "give -o another name": "choose another name",
+    "nor in one that --allow-path opens": "nor in one that adamslite.allow_path opens",
     "`solve`": "`simulate`",
 }  # fmt: skip
 #: Functions of Python whose names are not those of their commands.
@@ -36,6 +38,15 @@ FUNCTIONS = {"solve": "simulate", "linear": "linearize"}
 ARGUMENTS = {"tol": "tolerance", "from": "start", "to": "until"}
 #: Values of `--user` that stand for others.
 FORMS = {"module:function": "function", "number": "number"}
+
+#: What a terminal obeys instead of showing it: controls, marks that turn the direction of writing,
+#: characters without width, separators that some programs take for the end of a line, and halves
+#: of letters that cannot be written (bytes of file names that are no text can).
+OBEYED = re.compile(
+    "[\x00-\x08\x0b-\x1f\x7f-\x9f\xad\u061c\u180e\u200b\u200e\u200f\u2028-\u202e\u2060-\u206f"
+    "\ufeff\ufff9-\ufffb\ud800-\udc7f\udd00-\udfff]"
+)
+PICTURES, DELETE, UNKNOWN = 0x2400, 0x7F, "\ufffd"
 
 _notation = PYTHON
 
@@ -120,3 +131,20 @@ def _option(found: re.Match[str]) -> str:
 def _command(found: re.Match[str]) -> str:
     name, given = FUNCTIONS.get(found[1], found[1]), found[2]
     return f"`adamslite.{name}{f'({given!r})' if given else ''}`"
+
+
+def visible(text: str) -> str:
+    """A text as it may be shown: each control character is one that looks like its name.
+
+    Escape becomes ``\u241b``; what has no picture, as a mark that turns the direction of writing,
+    becomes ``\ufffd``. Tabs and ends of lines stay. Characters keep their places.
+    """
+    return OBEYED.sub(picture, text) if OBEYED.search(text) else text
+
+
+def picture(found: re.Match[str]) -> str:
+    """What is shown instead of a control character."""
+    code = ord(found[0])
+    if code < ord(" "):
+        return chr(PICTURES + code)
+    return chr(PICTURES + ord("!")) if code == DELETE else UNKNOWN

@@ -50,6 +50,14 @@ def add_user_flag(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
 
 
+def add_folder_flag(parser: argparse.ArgumentParser) -> None:
+    """Declare folders that decks may read files from; a reference file cannot open any."""
+    parser.add_argument(
+        "--allow-path", action="append", default=[], metavar="DIR",
+        help="let the deck read tables from DIR and below, too; may be repeated",
+    )  # fmt: skip
+
+
 def add_values_flag(parser: argparse.ArgumentParser) -> None:
     """Declare numbers to put into a deck."""
     parser.add_argument(
@@ -69,6 +77,7 @@ def add_deck(parser: argparse.ArgumentParser, required: bool = True) -> None:
         help="command file; without it the .acf beside the deck",
     )  # fmt: skip
     add_user_flag(parser)
+    add_folder_flag(parser)
     add_values_flag(parser)
 
 

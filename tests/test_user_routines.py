@@ -234,13 +234,28 @@ def test_what_a_function_reads_may_depend_on_parameters() -> None:
     assert found["VARIABLE/1"] == pytest.approx(3 * found.time, abs=1e-12)
 
 
-def test_entry_points_of_packages_are_found(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture
+def package(monkeypatch: pytest.MonkeyPatch) -> None:
+    """An installed package that offers VARSUB."""
     entry = EntryPoint("VARSUB", "user_functions:swing", "adamslite.user")
     monkeypatch.setattr("adamslite.deck.user_bindings.offered", lambda: (entry,))
+
+
+def test_the_function_of_a_package_is_bound_by_a_word_of_the_user(package: None) -> None:
     law = "VARIABLE/1, FUNCTION=USER(2, 3)"
-    found = mass(law, user=None, end=1.0, steps=4)
+    found = mass(law, user={"VARSUB": "installed"}, end=1.0, steps=4)
     assert found["VARIABLE/1"] == pytest.approx(2 * np.sin(3 * found.time), abs=1e-12)
     assert "user_functions:swing (adamslite.user VARSUB)" in found.meta["user"]
+
+
+def test_a_deck_alone_gets_no_function_of_a_package(package: None) -> None:
+    with pytest.raises(DeckError, match="bind it, user={'VARSUB': 'installed'}"):
+        mass("VARIABLE/1, FUNCTION=USER(2, 3)", user=None, end=1.0, steps=4)
+
+
+def test_what_no_package_offers_is_reported(package: None) -> None:
+    with pytest.raises(UsageError, match="no installed package offers GFOSUB .* has VARSUB"):
+        al.read(FALL, user={"GFOSUB": "installed"})
 
 
 @pytest.mark.parametrize("value", [None, {}, "nan", [1.0, None], float("inf")])

@@ -7,10 +7,11 @@ have changed, as they were written; the deck itself must be the same.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import asdict, dataclass, fields
+from math import isfinite
 from operator import is_
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from adamslite.analyses.dynamic import Settings
 from adamslite.analyses.static import StaticSettings
 from adamslite.deck.redefinition import Redefinition
 from adamslite.errors import UsageError
+from adamslite.results.untrusted import from_json
 
 if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
@@ -25,6 +27,7 @@ if TYPE_CHECKING:
     from adamslite.kernels.groups import Kernels
     from adamslite.language.interfaces import Key
 
+S = TypeVar("S")
 HEAD = "saved by adamslite"
 VERSION = 1
 ARRAYS = ("q", "u", "a", "base", "z", "mu", "ra", "rz", "rd", "pz")
@@ -61,7 +64,7 @@ class State:
     def put_into(self, system: System) -> None:
         """Restore it, in the system that it is of or in one with the same unknowns."""
         system.count_states_from_here()
-        if any(len(values) != len(getattr(system, name)) for name, values in self.arrays.items()):
+        if not self._fits(system):
             raise UsageError("RELOAD: the state is that of another model")
         for name, values in self.arrays.items():
             getattr(system, name)[:] = values
@@ -69,6 +72,18 @@ class State:
         if list(system.elimination.dropped) != self.dropped:
             system.elimination.drop(self.dropped)
         system.settings.t = system.report.t = self.time
+
+    def _fits(self, system: System) -> bool:
+        """Whether sizes and rows are those of a system: native code takes them as they are."""
+        sizes = {name: getattr(system, name).shape for name in self.arrays}
+        rooms = {whose: values.shape for whose, values in system.instances.memories()}
+        memories, rows = self.memories.items(), set(self.dropped)
+        return (
+            all(values.shape == sizes[name] for name, values in self.arrays.items())
+            and all(rooms.get(whose, each.shape) == each.shape for whose, each in memories)
+            and len(rows) == len(self.dropped)
+            and all(0 <= row < system.m for row in rows)
+        )
 
 
 @dataclass(frozen=True)
@@ -129,7 +144,7 @@ def document(text: str, name: str, deck: Deck) -> Document:
         When it is not the text of such a file, or that of another deck.
     """
     try:
-        whole = json.loads(text)
+        whole = from_json(text)
         if whole[HEAD] != VERSION:
             _refuse(name, "was written by another version")
         if whole["deck"] != deck.hash:
@@ -142,17 +157,17 @@ def document(text: str, name: str, deck: Deck) -> Document:
         if whole["senvals"]:
             deck = deck.with_senvals(dict(whole["senvals"]))
         state = State(
-            float(whole["time"]), bool(whole["at rest"]),
-            {each: np.array(whole["arrays"][each], dtype=float) for each in ARRAYS},
+            _finite(whole["time"]), bool(whole["at rest"]),
+            {each: _numbers(whole["arrays"][each]) for each in ARRAYS},
             {tuple(whose): np.array(row, dtype=float) for *whose, row in whole["memories"]},
             [int(row) for row in whole["dropped"]],
             {key: float(until) for key, until in whole["asleep"]},
         )  # fmt: skip
-        settings = Settings(**_tuples(whole["settings"]))
-        return Document(state, deck, settings, StaticSettings(**_tuples(whole["statics"])), changes)
+        settings = _settings(Settings, whole["settings"])
+        return Document(state, deck, settings, _settings(StaticSettings, whole["statics"]), changes)
     except UsageError:
         raise
-    except (ValueError, KeyError, TypeError, AttributeError):
+    except (ValueError, KeyError, TypeError, AttributeError, OverflowError):
         _refuse(name, "is not a file of SAVE")
 
 
@@ -177,6 +192,57 @@ def _source_of(change: Redefinition[Any]) -> str:
     return source.text[start:end]
 
 
-def _tuples(values: dict[str, Any]) -> dict[str, Any]:
-    """Settings as they were before they became JSON, which has lists only."""
-    return {name: tuple(v) if isinstance(v, list) else v for name, v in values.items()}
+def _finite(value: Any) -> float:
+    if not isfinite(value):
+        raise ValueError
+    return float(value)
+
+
+def _numbers(values: Any) -> np.ndarray:
+    found = np.array(values, dtype=float)
+    if not np.isfinite(found).all():
+        raise ValueError
+    return found
+
+
+def _settings(kind: type[S], values: Mapping[str, Any]) -> S:
+    """Settings that INTEGRATOR or EQUILIBRIUM can have; ValueError for others.
+
+    JSON has lists for what was a tuple.
+    """
+    found = {}
+    for each in fields(kind):  # type: ignore[arg-type]
+        value = values[each.name]
+        found[each.name] = tuple(value) if isinstance(value, list) else value
+        if not TYPES[str(each.type)](found[each.name]):
+            raise ValueError
+        if each.name in POSITIVE and value is not None and value <= 0:
+            raise ValueError
+    return kind(**found)
+
+
+def _is_number(value: Any) -> bool:
+    return type(value) in (int, float) and isfinite(value)
+
+
+def _is_count(value: Any) -> bool:
+    return type(value) is int and value < 1 << 31
+
+
+def _is_word(value: Any) -> bool:
+    return type(value) is str
+
+
+#: Whether a value is of the type that a setting is declared to have.
+TYPES: dict[str, Callable[[Any], bool]] = {
+    "int": _is_count,
+    "float": _is_number,
+    "str": _is_word,
+    "float | None": lambda value: value is None or _is_number(value),
+    "str | None": lambda value: value is None or _is_word(value),
+    "tuple[str, ...]": lambda value: type(value) is tuple and all(map(_is_word, value)),
+    "tuple[float, ...]": lambda value: type(value) is tuple and all(map(_is_number, value)),
+}
+POSITIVE = (
+    "error", "hmax", "hmin", "hinit", "kmax", "maxit", "alimit", "tlimit", "imbalance",
+)  # fmt: skip

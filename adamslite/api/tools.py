@@ -16,6 +16,8 @@ from typing import Any, NamedTuple
 from adamslite.deck.deck import Deck
 from adamslite.errors import DeckWarning, FormatError, UsageError
 from adamslite.language.diagnostics import WARNING
+from adamslite.language.file_name import open_folders
+from adamslite.language.text import MOST, contents
 from adamslite.progress import Progress, progress_of
 from adamslite.reading.read import read
 from adamslite.results.comparison import INTERPOLATIONS, Comparison, Tolerance
@@ -117,6 +119,18 @@ def verify(*paths: str | os.PathLike[str], jobs: int = 1) -> list[Verdict]:
     return list(verify_cases(cases, jobs=jobs))
 
 
+def allow_path(folder: str | os.PathLike[str]) -> None:
+    """Let decks read tables from this folder and below, too, in this process and its workers.
+
+    A deck reads files from its own folder and below alone: it may have come from somebody else.
+
+    Parameters
+    ----------
+    folder : str or Path
+    """
+    open_folders([os.fspath(folder)])
+
+
 def cable(
     description: str | os.PathLike[str],
     trial: float | None = None,
@@ -158,7 +172,7 @@ def cable(
     if isinstance(text, os.PathLike) or "\n" not in text:
         path = Path(text)
         try:
-            text, place = path.read_text(encoding="utf-8-sig"), str(path)
+            text, place = contents(path, MOST).decode("utf-8-sig").replace("\r\n", "\n"), str(path)
         except UnicodeDecodeError as fault:
             raise FormatError(f"{path} is not UTF-8 text: {fault.reason}") from None
     with closing(progress_of(progress)) as shown:

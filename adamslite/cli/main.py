@@ -32,7 +32,7 @@ import argparse
 import gc
 import os
 import sys
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from importlib import import_module
 from io import BufferedWriter, FileIO, TextIOWrapper
@@ -82,6 +82,27 @@ ALL_THREADS = "OMP_NUM_THREADS"
 
 Parser: TypeAlias = argparse.ArgumentParser
 
+
+class Shown:
+    """A stream that shows control characters; ``obeyed`` is the same stream for those by which this
+    program itself draws.
+    """
+
+    def __init__(self, stream: TextIOWrapper) -> None:
+        from adamslite.notation import visible
+
+        self.obeyed, self._visible = stream, visible
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.obeyed, name)
+
+    def write(self, text: str) -> int:
+        return self.obeyed.write(self._visible(text))
+
+    def writelines(self, lines: Iterable[str]) -> None:
+        self.obeyed.writelines(map(self._visible, lines))
+
+
 #: Objects that are made before those are looked for that nothing refers to: a run makes few such,
 #: and what a large deck is made of would be looked through again and again.
 GARBAGE = 1_000_000
@@ -101,6 +122,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         _open_streams()
         _write_every_letter()
         _take_one_thread()
+        _close_folder()
         gc.set_threshold(GARBAGE)
     with notation(COMMAND_LINE):
         code = _run(argv, own)
@@ -183,8 +205,26 @@ def _write_every_letter() -> None:
             chosen = stream.isatty() or "PYTHONIOENCODING" in os.environ
             encoding = stream.encoding if chosen else "utf-8"
             complete = encoding.lower().replace("_", "-") in ("utf-8", "utf8")
-            errors = "surrogateescape" if complete else "backslashreplace"
+            as_bytes = complete and not stream.isatty()  # which may take them for commands
+            errors = "surrogateescape" if as_bytes else "backslashreplace"
             stream.reconfigure(encoding=encoding, errors=errors)
+
+
+def _show_controls() -> None:
+    """From here on both streams show control characters, which decks and files of results may hold,
+    instead of passing them to a terminal.
+    """
+    for name in ("stdout", "stderr"):
+        stream = getattr(sys, name)
+        if isinstance(stream, TextIOWrapper):
+            setattr(sys, name, Shown(stream))
+
+
+def _close_folder() -> None:
+    """Let processes of workers find modules where this one does, and not in the current folder,
+    which may have come with a deck.
+    """
+    os.environ["PYTHONSAFEPATH"] = "1"
 
 
 def _take_one_thread() -> None:
@@ -205,6 +245,12 @@ def _run(argv: Sequence[str], own: bool) -> int:
         return int(leaving.code or DONE)
     except KeyboardInterrupt:
         return _interrupted()
+    if own:
+        _show_controls()
+    if getattr(args, "allow_path", None):
+        from adamslite.language.file_name import open_folders
+
+        open_folders(args.allow_path)
     if args.debug:
         return args.run(args)
     try:

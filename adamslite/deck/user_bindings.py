@@ -8,10 +8,12 @@ name                  value                                binds
 ``VARSUB``            ``pitch:demand``                     all that call the routine, to the
                                                            function ``demand`` of module ``pitch``
 ``lib::BitForces``    ``0``                                all that name it in ROUTINE
+``VARSUB``            ``installed``                        the same, to the function that an
+                                                           installed package offers by this name
 ====================  ===================================  ========================================
 
-What binds a statement wins over what binds its routine, and both over entry points of installed
-packages in the group ``adamslite.user``.
+What binds a statement wins over what binds its routine.  Packages offer functions as entry points
+of the group ``adamslite.user``; no deck gets them without such a word of the user.
 """
 
 from __future__ import annotations
@@ -42,6 +44,9 @@ if TYPE_CHECKING:  # few decks call routines, and numpy takes a while to load
 GROUP = "adamslite.user"
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eEdD][-+]?\d+)?[dD]?")
 FUNCTION = re.compile(r"([A-Za-z_][\w.]*):([A-Za-z_][\w.]*)")
+
+INSTALLED = "installed"
+"""Binds a routine to what an installed package offers by its name."""
 
 WANTED = "write a number, numbers separated by commas, or a function of Python as module:function"
 
@@ -83,11 +88,7 @@ class Bindings:
         if binding is not None:
             self.found.add(id(binding))
             self.used[label] = binding
-            return binding
-        entry = entry_point(routine)
-        if entry is not None:
-            self.used[label] = entry
-        return entry
+        return binding
 
     def _of_statement(self, names: Names, keyword: str, key: Key) -> Binding | None:
         for (kind, word), binding in self.statements.items():
@@ -198,6 +199,8 @@ def _from_text(name: str, value: str) -> Binding:
     pieces = [piece.strip() for piece in value.split(",")]
     if all(NUMBER.fullmatch(piece) for piece in pieces):
         return _numbers(name, ", ".join(pieces), tuple(map(_number, pieces)))
+    if value == INSTALLED:
+        return _installed(name)
     found = FUNCTION.fullmatch(value)
     if found is None:
         raise UsageError(f"--user {name}={value}: {WANTED}")
@@ -230,13 +233,24 @@ def _imported(name: str, module_name: str, path: str) -> Callable[..., Any]:
     return value
 
 
-def entry_point(routine: str) -> Binding | None:
-    """What an installed package offers under the name of a routine."""
+def is_installed(routine: str) -> bool:
+    """Whether a package offers a function by the name of a routine; nothing of it is loaded."""
+    return _offered_as(routine) is not None
+
+
+def _installed(name: str) -> Binding:
+    """The function that an installed package offers by a name."""
+    entry = _offered_as(name)
+    if entry is None:
+        said = f"--user {name}={INSTALLED}: no installed package offers {name} in the group {GROUP}"
+        known = ", ".join(sorted({each.name for each in offered()}))
+        raise UsageError(said + f", which has {known}" * bool(known))
+    return Binding(f"{entry.value} ({GROUP} {entry.name})", function=_loaded(entry))
+
+
+def _offered_as(routine: str) -> EntryPoint | None:
     wanted = {routine.upper(), short_name(routine).upper()}
-    for each in offered():
-        if each.name.upper() in wanted:
-            return Binding(f"{each.value} ({GROUP} {each.name})", function=_loaded(each))
-    return None
+    return next((each for each in offered() if each.name.upper() in wanted), None)
 
 
 @cache

@@ -11,7 +11,8 @@ from adamslite.elements.part import Part
 from adamslite.elements.point_mass import PointMass
 from adamslite.errors import FormatError
 from adamslite.language.diagnostics import DeckError
-from adamslite.language.text import decoded
+from adamslite.language.file_name import leads_out
+from adamslite.language.text import MOST, contents, decoded, text_of
 from adamslite.results.results import Results
 
 HASH = "deck hash"
@@ -89,9 +90,13 @@ def beside(path: Path, results: Results) -> Path | None:
     others = [each for folder in folders for each in sorted(folder.glob("*.adm"))]
     known = results.meta.get(HASH)
     for each in (*named, *others):
-        if each.is_file() and known and hash_of(each) == known:
+        if _is_there(each) and known and hash_of(each) == known:
             return each
-    return next((each for each in named if each.is_file()), None)
+    return next(filter(_is_there, named), None)
+
+
+def _is_there(path: Path) -> bool:
+    return path.is_file() and not leads_out(path)
 
 
 def hash_of(path: Path) -> str:
@@ -99,7 +104,7 @@ def hash_of(path: Path) -> str:
     from hashlib import sha256
 
     try:
-        text = decoded(path.read_bytes()).replace("\r\n", "\n").replace("\r", "\n")
+        text = text_of(decoded(contents(path, MOST)))
     except OSError:
         return ""
     return sha256(text.encode()).hexdigest()

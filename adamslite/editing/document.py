@@ -21,6 +21,7 @@ from adamslite.language.interfaces import Key
 from adamslite.language.messages.ignoring import without_ignored
 from adamslite.language.spelling import spelled
 from adamslite.language.statement import Statement
+from adamslite.language.text import text_of
 from adamslite.reading.read import read_by, read_commands
 from adamslite.syntax.tokens import end_of, scan
 
@@ -178,8 +179,7 @@ class Document:
 
     def update(self, text: str, deck: Content | None = None) -> Content:
         """Read the text; ``deck`` is what the commands are for."""
-        text = text.replace("\r\n", "\n").replace("\r", "\n")
-        source = Source(text, self.file)
+        source = Source(text_of(text), self.file)
         with without_collection():
             self._read(source, deck)
         return self.content

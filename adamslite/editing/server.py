@@ -17,6 +17,7 @@ from adamslite.editing.document import Content, Document
 from adamslite.editing.positions import Positions
 from adamslite.editing.text_file import place_of, read_text
 from adamslite.language.diagnostics import Diagnostic, Span
+from adamslite.language.file_name import leads_out
 
 SEVERITY = {
     "error": lsp.DiagnosticSeverity.Error,
@@ -27,6 +28,11 @@ SEVERITY = {
 
 DECK_SUFFIXES = (".adm", ".ADM")
 COMMAND_SUFFIXES = (".acf", ".ACF")
+
+
+def _is_beside(path: Path) -> bool:
+    """Whether a file is there, and is no link to one elsewhere, which would be quoted."""
+    return path.is_file() and not leads_out(path)
 
 
 class Server(LanguageServer):
@@ -65,7 +71,7 @@ class Server(LanguageServer):
         found = []
         for other in (stem + suffix for suffix in suffixes):
             path = uris.to_fs_path(other)
-            if other in self.workspace.text_documents or (path and Path(path).is_file()):
+            if other in self.workspace.text_documents or (path and _is_beside(Path(path))):
                 found.append(other)
         return found
 

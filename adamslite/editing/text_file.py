@@ -6,7 +6,7 @@ from codecs import BOM_UTF8, BOM_UTF16_BE, BOM_UTF16_LE
 from pathlib import Path
 from typing import NamedTuple
 
-from adamslite.language.text import decoded
+from adamslite.language.text import MOST, contents, decoded
 from adamslite.outputs.whole_files import whole_file
 
 COMMAND_SUFFIX = ".acf"
@@ -41,7 +41,7 @@ def place_of(path: str | Path) -> str:
 
 def read_text(path: Path) -> TextFile:
     """Read a file; see :func:`adamslite.language.text.decoded` for its encodings."""
-    data = path.read_bytes()
+    data = contents(path, MOST)
     text = decoded(data)
     line_end = "\r\n" if "\r\n" in text else "\n"
     plain = text.replace("\r\n", "\n").replace("\r", "\n")

@@ -11,6 +11,7 @@ from textwrap import wrap
 from typing import NamedTuple
 
 from adamslite.deck.deck import Deck
+from adamslite.language.text import text_of
 from adamslite.variation.decks import variable_of
 
 #: Letters in a line of the comment.
@@ -46,7 +47,7 @@ def encoded(deck: Deck, values: Mapping[str, float], comments: Sequence[str]) ->
     data = base.path.read_bytes() if base.path and base.path.is_file() else b""
     encoding = _encoding(data)
     text = data[len(encoding.mark) :].decode(encoding.name)
-    if text.replace("\r\n", "\n").replace("\r", "\n") != base.source.text:
+    if text_of(text) != base.source.text:
         text, encoding = base.source.text, Encoding(b"", "utf-8")  # the file is not what was read
     made = _with_numbers(text, deck, values, comments)
     return encoding.mark + made.encode(encoding.name, "backslashreplace")

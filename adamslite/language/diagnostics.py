@@ -13,6 +13,8 @@ from itertools import chain
 from struct import Struct, pack
 from typing import Any, ClassVar, NamedTuple
 
+from adamslite.notation import visible
+
 ERROR = "error"
 WARNING = "warning"
 NOTE = "note"
@@ -276,14 +278,17 @@ class Diagnostic:
         return self.severity == ERROR
 
     def render(self) -> str:
-        """The message with its place, the source line, carets below it and the hint."""
+        """The message with its place, the source line, carets below it and the hint.
+
+        Names of files, and what a description or a table of others says, may hold anything.
+        """
         place = f"{self.span}: " if self.span.line else ""
         lines = [f"{place}{self.severity}: {self.message} [{self.code}]"]
         if self.source_line.strip():
             lines += self._marked_line()
         if self.hint:
             lines.append(f"    = {self.hint}")
-        return "\n".join(lines)
+        return visible("\n".join(lines))
 
     def _marked_line(self) -> list[str]:
         text = self.source_line.expandtabs(1)

@@ -1,11 +1,20 @@
-"""The text of a file, whatever its encoding and its line ends, and what its comments ask for."""
+"""The text of a file, whatever its encoding and its line ends, without control characters, and what
+its comments ask for.
+"""
 
 from __future__ import annotations
 
+import errno
+import os
 import re
+import stat
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
+
+from adamslite.notation import OBEYED, picture
 
 if TYPE_CHECKING:
     from adamslite.language.diagnostics import Source
@@ -14,6 +23,11 @@ IGNORES = "adamslite:"
 COMMENT = re.compile(rf"{IGNORES}[ \t]*ignore\b([^\n]*)", re.IGNORECASE)
 CODES = re.compile(r"[ \t]*[\w-]+(?:[ \t]*,[ \t]*[\w-]+)*")
 CODE = re.compile(r"[\w-]+")
+
+#: Larger decks and descriptions are not read, nor more of a pipe or a device [bytes].
+MOST = 1 << 28
+#: What is asked for at once, of what has no size [bytes].
+PIECE = 1 << 24
 
 
 def decoded(data: bytes) -> str:
@@ -25,9 +39,51 @@ def decoded(data: bytes) -> str:
         return data.decode("latin-1")
 
 
+def contents(path: str | Path, most: int = 0) -> bytes:
+    """The bytes of a file that may come from others.
+
+    Parameters
+    ----------
+    path : str or Path
+    most : int
+        How many at most [bytes]; half of what this machine has of memory unless given.
+
+    Raises
+    ------
+    OSError
+        When there are more. A device or a pipe, which may have no end, gives ``MOST`` at most.
+    """
+    with open(path, "rb") as file:
+        facts = os.fstat(file.fileno())
+        plain = stat.S_ISREG(facts.st_mode)
+        most = most or (_half_of_memory() if plain else MOST)
+        found = file.read() if plain and facts.st_size <= most else b""
+        while not plain and len(found) <= most and (more := file.read(PIECE)):
+            found += more
+    if max(facts.st_size, len(found)) > most:
+        raise OSError(errno.EFBIG, f"more than {most / 1e6:.0f} MB are not read", str(path))
+    return found
+
+
+@cache
+def _half_of_memory() -> int:
+    try:
+        return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // 2
+    except (AttributeError, ValueError, OSError):  # Windows has no such question
+        return 1 << 33
+
+
 def text_of(source: str) -> str:
-    """A text with ``\\n`` line ends."""
-    return source.replace("\r\n", "\n").replace("\r", "\n")
+    """A text with ``\\n`` line ends, and nothing in it that a terminal or a page would obey.
+
+    Every character keeps its place; one that separates words is a blank.
+    """
+    text = source.replace("\r\n", "\n").replace("\r", "\n")
+    return OBEYED.sub(_blank_or_picture, text) if OBEYED.search(text) else text
+
+
+def _blank_or_picture(found: re.Match[str]) -> str:
+    return " " if found[0].isspace() else picture(found)
 
 
 class Ignored(NamedTuple):

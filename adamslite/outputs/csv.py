@@ -23,6 +23,7 @@ import numpy as np
 
 import adamslite
 from adamslite.errors import FormatError
+from adamslite.language.text import contents, text_of
 from adamslite.outputs.number_text import lines
 from adamslite.outputs.whole_files import whole_file
 from adamslite.results.formats import register_format
@@ -74,7 +75,7 @@ def read_table(path: str | Path) -> Table:
         When a row has the wrong number of values or something that is not a number.
     """
     try:
-        lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
+        lines = text_of(contents(path).decode("utf-8-sig")).splitlines()
     except UnicodeDecodeError as fault:
         raise FormatError(f"{path} is not a table in UTF-8: {fault.reason}") from None
     comments, start = _leading_comments(lines)

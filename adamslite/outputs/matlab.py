@@ -14,17 +14,20 @@ from __future__ import annotations
 import struct
 import zlib
 from io import BytesIO
+from math import prod
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from adamslite.errors import FormatError
+from adamslite.language.text import contents
 from adamslite.outputs.whole_files import whole_file
 from adamslite.results.channels import with_units
 from adamslite.results.formats import register_format
 from adamslite.results.results import Results
 from adamslite.results.run_texts import attributes, need_rows, restored
+from adamslite.results.untrusted import need_plausible
 
 NEEDED = ("time", "values", "names")
 NEW = b"MATLAB 7.3 MAT-file"
@@ -65,17 +68,21 @@ def read(path: str | Path) -> Results:
     FormatError
         When it is no such file, or is cut off.
     """
-    from scipy.io import loadmat
+    from scipy.io import loadmat, whosmat
     from scipy.io.matlab import MatReadError
 
-    data = Path(path).read_bytes()
+    data = contents(path)
     if data.startswith(NEW):
         raise FormatError(f"{path} is of MATLAB 7.3 (HDF5); write it in MATLAB with save -v7")
     try:
+        shapes = [shape for _, shape, _ in whosmat(BytesIO(data))]
+        need_plausible(sum(map(prod, shapes)), len(data))
         found = loadmat(BytesIO(data), squeeze_me=False)
         missing = [name for name in NEEDED if name not in found]
         if not missing:
             return _results(found)
+    except FormatError as fault:
+        raise FormatError(f"{path}: {fault}") from None
     except (*FAULTS, MatReadError) as fault:
         raise FormatError(f"{path} is no MATLAB file, or is damaged: {fault}") from None
     raise FormatError(f"{path}: there is no variable '{missing[0]}' in it")

@@ -26,11 +26,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from adamslite.errors import FormatError
+from adamslite.language.text import contents
 from adamslite.outputs.whole_files import whole_file
 from adamslite.results.channels import describe
 from adamslite.results.formats import register_format
 from adamslite.results.results import Results
 from adamslite.results.run_texts import attributes, need_rows, restored
+from adamslite.results.untrusted import from_json
 
 if TYPE_CHECKING:
     from adamslite.results.channels import Channel
@@ -158,7 +160,7 @@ def read(path: str | Path) -> Results:
     """
     from scipy.io import netcdf_file
 
-    data = Path(path).read_bytes()
+    data = contents(path)
     if data.startswith(HDF5):
         raise FormatError(
             f"{path} is NetCDF-4 (HDF5), and NetCDF-3 is read: "
@@ -183,7 +185,7 @@ def _results(file: Any) -> Results:
         raise FormatError("there is no variable 'time' in it")
     time = np.array(file.variables["time"][:], dtype=float)
     columns = {name: values for name, values in _columns(file, len(time))}
-    listed = json.loads(found["channels"]) if "channels" in found else list(columns)
+    listed = from_json(found["channels"]) if "channels" in found else list(columns)
     missing = [name for name in listed if name not in columns]
     if missing:
         raise FormatError(f"its variables have no column {missing[0]}")

@@ -13,11 +13,13 @@ from typing import Any
 import numpy as np
 
 from adamslite.errors import FormatError, UsageError
+from adamslite.language.text import contents
 from adamslite.outputs.whole_files import whole_file
 from adamslite.results.channels import with_units
 from adamslite.results.formats import register_format
 from adamslite.results.results import Results
 from adamslite.results.run_texts import attributes, need_rows, restored
+from adamslite.results.untrusted import need_plausible
 
 MISSING = "files .parquet need pyarrow: pip install 'adamslite[parquet]'"
 
@@ -49,9 +51,13 @@ def read(path: str | Path) -> Results:
         When pyarrow is not installed.
     """
     arrow, parquet = _library()
-    data = Path(path).read_bytes()
+    data = contents(path)
     try:
+        facts = parquet.read_metadata(BytesIO(data))
+        need_plausible(facts.num_rows * facts.num_columns, len(data))
         table = parquet.read_table(BytesIO(data))
+    except FormatError as fault:
+        raise FormatError(f"{path}: {fault}") from None
     except (arrow.ArrowException, OSError, ValueError) as fault:
         reason = " ".join(str(fault).split())
         raise FormatError(f"{path} is no Parquet file, or is damaged: {reason}") from None

@@ -113,9 +113,9 @@ def read(path: str | Path) -> Results:
     FormatError
         When it is damaged, cut off or no such file.
     """
-    from adamslite.language.text import decoded
+    from adamslite.language.text import contents, decoded
 
-    data = Path(path).read_bytes()
+    data = contents(path)
     if b"\0" in data[:4096]:
         raise FormatError(f"{path} is not a request file in text")
     lines = decoded(data).replace("\r\n", "\n").split("\n")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from adamslite.errors import UsageError
+from adamslite.language.text import contents
 from adamslite.outputs.whole_files import whole_file
 
 
@@ -56,6 +57,10 @@ class SavedFiles:
         if self.folder is None or not (self.folder / name).is_file():
             raise UsageError(f"RELOAD: {missing(name)}")
         try:
-            return (self.folder / name).read_text(encoding="utf-8")
+            from adamslite.language.file_name import leads_out  # few runs read any
+
+            if leads_out(self.folder / name):
+                raise UsageError(f"RELOAD: {name} is a link that leads out of its folder")
+            return contents(self.folder / name).decode()
         except UnicodeDecodeError:
             raise UsageError(f"RELOAD: {name} is not a file of SAVE") from None

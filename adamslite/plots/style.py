@@ -8,8 +8,10 @@ an optional extra, is imported when the first figure is made.
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Callable, Iterable, Sequence
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, chdir
+from importlib import import_module
 from io import BytesIO
 from itertools import pairwise
 from math import floor, log10
@@ -137,11 +139,18 @@ def looks_of_limits(names: Iterable[str]) -> dict[str, Look]:
 
 
 def need_matplotlib() -> None:
-    """Raise UsageError with one sentence when nothing can be drawn."""
+    """Raise UsageError with one sentence when nothing can be drawn.
+
+    matplotlib takes a `matplotlibrc` of the current folder before the user's own, and its older
+    versions evaluate parts of it; the folder may have come with a deck.
+    """
     from importlib.util import find_spec
 
     if find_spec("matplotlib") is None:
         raise UsageError(ABSENT)
+    if "matplotlib" not in sys.modules:
+        with chdir(Path(__file__).parent):
+            import_module("matplotlib")
 
 
 def styled() -> AbstractContextManager[None]:

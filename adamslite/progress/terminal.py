@@ -8,6 +8,7 @@ import time as clock
 from collections.abc import Callable
 from typing import TYPE_CHECKING, TextIO
 
+from adamslite.notation import visible
 from adamslite.progress.base import Progress
 from adamslite.progress.meter import Meter
 
@@ -34,7 +35,8 @@ class TalkingProgress(Progress):
     def __init__(
         self, stream: TextIO | None = None, now: Callable[[], float] = clock.monotonic
     ) -> None:
-        self._stream = stream or sys.stderr
+        own: TextIO = getattr(sys.stderr, "obeyed", sys.stderr)
+        self._stream = stream or own
         self._live = self._stream.isatty() and os.environ.get("TERM") != "dumb"
         self._now, self._width = now, 0
         self._bar: Bar | None = None
@@ -57,7 +59,7 @@ class TalkingProgress(Progress):
 
     def say(self, sentence: str) -> None:
         self._clear()
-        self._stream.write(sentence + "\n")
+        self._stream.write(visible(sentence) + "\n")
         self._stream.flush()
 
     def close(self) -> None:

@@ -29,7 +29,7 @@ from adamslite.language.diagnostics import DeckError, Diagnostic, Source
 from adamslite.language.file_name import is_file_name
 from adamslite.language.messages.ignoring import judged, without_ignored
 from adamslite.language.statement import Statement
-from adamslite.language.text import decoded, text_of
+from adamslite.language.text import MOST, contents, decoded, text_of
 from adamslite.reading.half_read import further_mistakes
 from adamslite.reading.numbers import Given as Values
 from adamslite.reading.numbers import edited
@@ -161,5 +161,5 @@ def _load(source: str | Path) -> tuple[str, Path | None]:
     """Text with ``\\n`` line ends, and the file it came from."""
     if isinstance(source, Path) or "\n" not in source:
         path = Path(source)
-        return text_of(decoded(path.read_bytes())), path
+        return text_of(decoded(contents(path, MOST))), path
     return text_of(source), None

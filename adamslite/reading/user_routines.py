@@ -14,7 +14,7 @@ from typing import Any
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command, Redefinition
 from adamslite.deck.statement_diagnostics import diagnose, place_of
-from adamslite.deck.user_bindings import Binding, Bindings
+from adamslite.deck.user_bindings import INSTALLED, Binding, Bindings, is_installed
 from adamslite.elements.bases.traced_curve import line, traced
 from adamslite.language.diagnostics import NOWHERE, Diagnostic, Source
 from adamslite.language.expression import TIME, Call, Node, Num, to_text
@@ -224,8 +224,9 @@ class RoutineBinder:
     def _missing(self) -> Iterator[Diagnostic]:
         for calls in self.missing.values():
             first, routine = calls[0], calls[0].routine
+            known = f"--user {routine}={INSTALLED}, " if is_installed(routine) else ""
             hint = (
-                f"bind it, --user {routine}=module:function or --user {first.label}=number; "
+                f"bind it, {known}--user {routine}=module:function or --user {first.label}=number; "
                 f"called by\n      " + "\n      ".join(each.listed for each in calls)
             )
             yield self._of(calls, "missing-routine", hint, word=routine)

@@ -12,6 +12,7 @@ import numpy as np
 
 from adamslite.results.linearization import Linearization, SecondOrder
 from adamslite.results.results import Linearized
+from adamslite.results.untrusted import from_json, inflated
 
 
 def to_text(found: Sequence[Linearized]) -> str:
@@ -37,13 +38,13 @@ def from_text(text: str) -> tuple[Linearized, ...]:
     ValueError, KeyError, TypeError
         When it is another text.
     """
-    return tuple(_linearized(each) for each in json.loads(text, object_hook=_value))
+    return tuple(_linearized(each) for each in from_json(text, _value))
 
 
 def _value(found: dict[str, Any]) -> Any:
     if found.keys() != {"shape", "type", "data"}:
         return found
-    data = zlib.decompress(base64.b64decode(found["data"]))
+    data = inflated(base64.b64decode(found["data"]))
     return np.frombuffer(data, dtype=found["type"]).reshape(found["shape"]).copy()
 
 

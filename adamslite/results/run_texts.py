@@ -32,6 +32,7 @@ import adamslite
 from adamslite.errors import FormatError
 from adamslite.results.outcomes import Outcome
 from adamslite.results.source import NO_FILE, RunSource
+from adamslite.results.untrusted import from_json
 
 if TYPE_CHECKING:
     from adamslite.results.results import Results
@@ -95,12 +96,10 @@ def restored(found: Mapping[str, str]) -> dict[str, Any]:
 
     try:
         outcome = Outcome[found.get("outcome", "DONE")]
-        meta = {
-            str(key): str(text) for key, text in json.loads(found.get("comments", "{}")).items()
-        }
-        summary = dict(json.loads(found.get("summary", "{}")))
-        user = tuple(filter(NUMBERS.fullmatch, map(str, json.loads(found.get("user", "[]")))))
-        tables = json.loads(found.get("tables", "{}"))
+        meta = {str(key): str(text) for key, text in from_json(found.get("comments", "{}")).items()}
+        summary = dict(from_json(found.get("summary", "{}")))
+        user = tuple(filter(NUMBERS.fullmatch, map(str, from_json(found.get("user", "[]")))))
+        tables = from_json(found.get("tables", "{}"))
         kept = tuple((str(name), str(text)) for name, text in tables.items())
         linear = from_text(found.get("linear", "[]"))
     except (ValueError, KeyError, TypeError, AttributeError, zlib.error):
@@ -108,7 +107,7 @@ def restored(found: Mapping[str, str]) -> dict[str, Any]:
     source = None
     if found.get("deck"):
         source = RunSource(
-            deck=found["deck"], name=found.get("deck_name", NO_FILE), user=user,
+            deck=found["deck"], name=_plain_name(found.get("deck_name", "")), user=user,
             commands=found.get("commands", ""), commands_name=found.get("commands_name", ""),
             tables=kept,
         )  # fmt: skip
@@ -116,6 +115,12 @@ def restored(found: Mapping[str, str]) -> dict[str, Any]:
         "meta": meta, "summary": summary, "outcome": outcome, "source": source,
         "message": found.get("message", ""), "linearizations": linear,
     }  # fmt: skip
+
+
+def _plain_name(name: str) -> str:
+    """The name of a deck without a folder, which would be one of this machine."""
+    last = name.replace("\\", "/").rpartition("/")[2]
+    return last if last.strip(". ") else NO_FILE
 
 
 def need_rows(results: Results) -> None:

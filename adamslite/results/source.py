@@ -79,6 +79,7 @@ class RunSource:
         from adamslite.deck.names import Names
         from adamslite.deck.user_bindings import bindings
         from adamslite.language.diagnostics import Source
+        from adamslite.language.text import text_of
         from adamslite.reading.read import commands_of, read_by
         from adamslite.reading.statement_reader import Reading
 
@@ -86,23 +87,26 @@ class RunSource:
             return self.made
         folder = unpacked(self.tables) if self.tables else self.folder
         path = None if self.name == NO_FILE and not self.tables else Path(folder, self.name)
-        reading = Reading(Source(self.deck, self.name), Names(), "deck")
+        reading = Reading(Source(text_of(self.deck), self.name), Names(), "deck")
         deck = read_by(reading, path, bindings(list(self.user)))
         if not self.commands:
             return deck, Commands()
-        return deck, commands_of(Source(self.commands, self.commands_name), deck)
+        return deck, commands_of(Source(text_of(self.commands), self.commands_name), deck)
 
     def table_texts(self) -> dict[str, str]:
         """The tables that SPLINE and MATRIX take from files, by name, as far as they are there."""
         if self.tables or not (self.made or self.folder):
             return dict(self.tables)
+        from adamslite.elements.bases.data_file import tables
+        from adamslite.language.text import contents
+
         deck, commands = self.read()
         changes = (getattr(command, "changes", {}).get("file") for command in commands)
         named = {*(getattr(each, "file", None) for each in deck.statements), *changes}
         found = {}
-        for name in sorted(each for each in named if each and each.lower().endswith(TABLE)):
+        for name, path in tables(deck.folder, sorted(filter(None, named))).items():
             with suppress(OSError, UnicodeDecodeError):
-                found[name] = (deck.folder / name).read_text(encoding="utf-8-sig")
+                found[name] = contents(path).decode("utf-8-sig")
         return found
 
 

@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from adamslite.caching.program import fingerprint
+from adamslite.elements.bases.data_file import tables
 from adamslite.errors import RunFailed, UsageError
 from adamslite.kept_scene import tables_of
 from adamslite.sweeps.job import FAULT, Job, Run
@@ -143,8 +144,8 @@ class _Lots:
                 "files of adamslite were changed since this process began: begin again"
             )
         own = replace(self.job, values=self.job.values[:0])
-        files = {name: (own.deck.folder / name) for name in tables_of(own.deck, own.commands)}
-        contents = {name: path.read_bytes() for name, path in files.items() if path.is_file()}
+        files = tables(own.deck.folder, tables_of(own.deck, own.commands))
+        contents = {name: path.read_bytes() for name, path in files.items()}
         try:
             packed = pickle.dumps(Parcel(own, contents, fingerprint()))
         except Exception as fault:

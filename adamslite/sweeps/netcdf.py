@@ -25,8 +25,10 @@ from typing import Any
 import numpy as np
 
 from adamslite.errors import FormatError, UsageError
+from adamslite.language.text import contents
 from adamslite.outputs.netcdf import TEXT, VERSION, identifier
 from adamslite.outputs.whole_files import whole_file
+from adamslite.results.untrusted import from_json
 from adamslite.sweeps.job import SUMMARY
 from adamslite.sweeps.recognition import DAMAGED
 from adamslite.sweeps.record import Sweep
@@ -133,7 +135,7 @@ def read(path: str | Path) -> Sweep:
     """
     from scipy.io import netcdf_file
 
-    data = Path(path).read_bytes()
+    data = contents(path)
     if not data.startswith(b"CDF"):
         raise FormatError(f"{path} holds no sweep")
     try:
@@ -156,7 +158,7 @@ def _sweep(file: Any) -> Sweep:
             name = _text(variable.name)
             found[_text(variable.role)][name] = np.array(variable[:], dtype=float)
             units[name] = _text(variable.units)
-    facts = json.loads(_text(file.written_by))
+    facts = from_json(_text(file.written_by))
     sweep = Sweep(
         names=tuple(found[NUMBER]), values=np.column_stack(list(found[NUMBER].values())),
         measured=tuple(found[MEASURE]), channels=tuple(found[HISTORY]), key=_text(file.sweep),

@@ -14,6 +14,7 @@ from adamslite.errors import FormatError, UsageError
 from adamslite.results.results import Results
 from adamslite.results.run_texts import attributes, restored
 from adamslite.results.source import RunSource, source_of
+from adamslite.results.untrusted import from_json
 from adamslite.sweeps.record import Sweep
 
 SOURCE, OPTIONS = "source", "options"
@@ -55,8 +56,8 @@ def origin_of(sweep: Sweep) -> tuple[RunSource, dict[str, Any]]:
         When they are not those of this program.
     """
     try:
-        texts = json.loads(sweep.meta.get(SOURCE, "{}"))
-        given = json.loads(sweep.meta.get(OPTIONS, "{}"))
+        texts = from_json(sweep.meta.get(SOURCE, "{}"))
+        given = from_json(sweep.meta.get(OPTIONS, "{}"))
         source = restored({str(name): str(text) for name, text in texts.items()})["source"]
         options = {name: KNOWN[name](each) for name, each in given.items() if name in KNOWN}
     except (ValueError, TypeError, AttributeError):

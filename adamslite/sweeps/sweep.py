@@ -17,6 +17,7 @@ from adamslite.analyses.subject import kernels_of, prepared_for
 from adamslite.caching.program import program
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command
+from adamslite.elements.bases.data_file import tables
 from adamslite.equations.result_columns import column_names
 from adamslite.errors import FormatError, UsageError
 from adamslite.kept_scene import tables_of
@@ -219,9 +220,8 @@ def _key(job: Job, deck: Deck) -> str:
     ]  # fmt: skip
     for each in facts:
         digest.update(sha256(each.encode(errors="surrogateescape")).digest())
-    for name in tables_of(deck, job.commands):
-        table = deck.folder / name
-        digest.update(sha256(table.read_bytes() if table.is_file() else b"").digest())
+    for table in tables(deck.folder, tables_of(deck, job.commands)).values():
+        digest.update(sha256(table.read_bytes()).digest())
     digest.update(np.ascontiguousarray(job.values).tobytes())
     return digest.hexdigest()
 

@@ -31,6 +31,7 @@ from adamslite.results.comparison import (
 from adamslite.results.formats import format_of
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
+from adamslite.results.run_texts import NUMBERS
 from adamslite.run_flags import parse_flags
 from adamslite.verification.measures import ARRIVAL, KINDS, VALUE, Measure
 
@@ -184,9 +185,17 @@ def _tolerance(reference: Reference, subject: str | None, text: str) -> None:
 def _solve(reference: Reference, subject: str | None, text: str) -> None:
     try:
         reference.options = parse_flags(shlex.split(text))
+        _need_numbers(reference.options.get("user", ()))
     except UsageError as fault:
         # The line holds flags, whoever reads it.
         raise ValueError(f"in 'solve: {text}': {fault.args[0]}") from None
+
+
+def _need_numbers(bindings: Collection[str]) -> None:
+    """A reference may come from others: only the user can have a function of Python loaded."""
+    for text in bindings:
+        if not NUMBERS.fullmatch(text):
+            raise UsageError(f"--user {text}: a reference binds numbers only")
 
 
 def _expect(reference: Reference, subject: str | None, text: str) -> None:

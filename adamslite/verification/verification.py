@@ -16,6 +16,7 @@ from typing import Any
 from adamslite import notation
 from adamslite.errors import FormatError, UsageError
 from adamslite.language.diagnostics import DeckError
+from adamslite.language.file_name import leads_out
 from adamslite.progress import Progress
 from adamslite.results.comparison import Comparison, Mismatch
 from adamslite.results.outcomes import Outcome
@@ -122,7 +123,8 @@ def solve_quietly(
 
 def _references(glob: Callable[[str], Iterable[Path]]) -> list[Path]:
     """The files called `[deck.]reference[-tag].csv`, deck by deck."""
-    named = (file for file in glob("*reference*.csv") if _NAME.fullmatch(file.name))
+    found = (file for file in glob("*reference*.csv") if _NAME.fullmatch(file.name))
+    named = (file for file in found if not leads_out(file))
     return sorted(named, key=lambda file: (file.parent, file.stem))
 
 

@@ -44,9 +44,10 @@ def run(args: argparse.Namespace) -> int:
         need_writable(args.output, [args.spec])
     # It takes a while to load.
     from adamslite.api.trials import described
+    from adamslite.language.text import MOST, contents
 
     try:
-        text = args.spec.read_text(encoding="utf-8-sig")
+        text = contents(args.spec, MOST).decode("utf-8-sig").replace("\r\n", "\n")
     except UnicodeDecodeError as fault:
         raise FormatError(f"{args.spec} is not UTF-8 text: {fault.reason}") from None
     found = described(text, str(args.spec), args.trial, SentenceProgress())

@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 from adamslite.cli.commands.codes import DONE
-from adamslite.run_flags import add_user_flag
+from adamslite.run_flags import add_folder_flag, add_user_flag
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -18,6 +18,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("deck", metavar="DECK", type=Path, help="deck (.adm)")
     parser.add_argument("patterns", metavar="PATTERN", nargs="*", help="'SFORCE/*', 'PART/2.*'")
     add_user_flag(parser)
+    add_folder_flag(parser)
 
 
 def run(args: argparse.Namespace) -> int:

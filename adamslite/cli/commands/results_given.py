@@ -7,7 +7,13 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from adamslite.run_flags import add_run_flags, add_user_flag, add_values_flag, run_options
+from adamslite.run_flags import (
+    add_folder_flag,
+    add_run_flags,
+    add_user_flag,
+    add_values_flag,
+    run_options,
+)
 
 if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
@@ -30,6 +36,7 @@ def add_results_arguments(parser: argparse.ArgumentParser) -> None:
         "--commands", metavar="COMMANDS.acf", type=Path, help="commands of RESULT, where a deck"
     )
     add_user_flag(parser)
+    add_folder_flag(parser)
     add_values_flag(parser)
     add_run_flags(parser)
 

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from adamslite.cli.commands.codes import DONE, STOPPED_EARLY
-from adamslite.run_flags import add_user_flag, add_values_flag, count, positive
+from adamslite.run_flags import add_folder_flag, add_user_flag, add_values_flag, count, positive
 
 if TYPE_CHECKING:
     from adamslite.scene import Scene
@@ -46,6 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="command file; without it the .acf beside the deck",
     )  # fmt: skip
     add_user_flag(parser)
+    add_folder_flag(parser)
     add_values_flag(parser)
     flags = parser.add_argument_group("run", "these win over the deck and the command file")
     flags.add_argument("--end", type=positive, metavar="T", help="end time")

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from adamslite.cli.commands.codes import DONE, OUTSIDE_TOLERANCE
-from adamslite.run_flags import count, positive
+from adamslite.run_flags import add_folder_flag, count, positive
 
 if TYPE_CHECKING:
     from adamslite.results.results import Results
@@ -34,6 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--share", metavar="S", type=positive, default=1.0,
         help="largest share of a tolerance that may be used (default: 1, all of it)",
     )  # fmt: skip
+    add_folder_flag(parser)
 
 
 def run(args: argparse.Namespace) -> int:

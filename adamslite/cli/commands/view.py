@@ -18,7 +18,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from adamslite.cli.commands.codes import DONE, STOPPED_EARLY
-from adamslite.run_flags import add_run_flags, add_user_flag, add_values_flag, run_options
+from adamslite.run_flags import (
+    add_folder_flag,
+    add_run_flags,
+    add_user_flag,
+    add_values_flag,
+    run_options,
+)
 
 if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
@@ -61,6 +67,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="plot these columns alone: 'REQUEST/*'; all where they have room",
     )  # fmt: skip
     add_user_flag(parser)
+    add_folder_flag(parser)
     add_values_flag(parser)
     add_run_flags(parser)
 

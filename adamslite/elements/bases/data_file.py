@@ -11,8 +11,13 @@ Files that ``adamslite solve -o NAME.csv`` writes are such tables.
 from __future__ import annotations
 
 import csv
+from collections.abc import Iterable
+from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
+
+from adamslite.language.file_name import inside
+from adamslite.language.text import contents, text_of
 
 Column = tuple[float, ...]
 SUFFIX = ".csv"
@@ -26,7 +31,7 @@ class UnusableFile(Exception):
 
 def columns(folder: Path, name: str) -> tuple[Column, ...]:
     """All columns of the file ``name`` in ``folder`` or below."""
-    path = _located(folder, name)
+    path = located(folder, name)
     facts = path.stat()
     return _table(path, facts.st_mtime_ns, facts.st_size)[1]
 
@@ -38,22 +43,29 @@ def points(
 
     ``channel``: its number, from 1; ``block``: its name.  Without both it must be the only one.
     """
-    path = _located(folder, name)
+    path = located(folder, name)
     facts = path.stat()
     names, columns = _table(path, facts.st_mtime_ns, facts.st_size)
     return columns[0], columns[_number(names, len(columns), channel, block)]
 
 
-def _located(folder: Path, name: str) -> Path:
-    """The file, which is never outside of the folder, by links neither."""
-    base = folder.resolve()
+def located(folder: Path, name: str) -> Path:
+    """The file, which is never outside of the folder, by links neither, unless the user has opened
+    another one.
+
+    Raises
+    ------
+    UnusableFile
+    """
     try:
-        path = (base / name).resolve()
-        inside, there = path.is_relative_to(base), path.is_file()
-    except (OSError, ValueError):
+        path = inside(folder, name)
+        there = path is not None and path.is_file()
+    except (OSError, ValueError, RuntimeError):  # a link to itself
         raise UnusableFile("that is no name of a file") from None
-    if not inside:
-        raise UnusableFile("it is not in the folder of the deck or below")
+    if path is None:
+        raise UnusableFile(
+            "it is not in the folder of the deck or below, nor in one that --allow-path opens"
+        )
     if path.suffix.lower() != SUFFIX:
         raise UnusableFile(f"only tables {SUFFIX} can be read")
     if not there:
@@ -61,12 +73,23 @@ def _located(folder: Path, name: str) -> Path:
     return path
 
 
+def tables(folder: Path, names: Iterable[str]) -> dict[str, Path]:
+    """The files among some names that can be read."""
+    found = {}
+    for name in names:
+        with suppress(UnusableFile):
+            found[name] = located(folder, name)
+    return found
+
+
 @lru_cache(maxsize=4)
 def _table(path: Path, time: int, size: int) -> tuple[tuple[str, ...], tuple[Column, ...]]:
     """Names and columns of a file; ``time`` and ``size`` tell that it has changed."""
     try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as fault:
+        lines = text_of(contents(path).decode("utf-8-sig")).splitlines()
+    except OSError as fault:
+        raise UnusableFile(f"it cannot be read: {fault.strerror}") from None
+    except UnicodeDecodeError as fault:
         raise UnusableFile(f"it cannot be read: {fault}") from None
     written = [(n, line) for n, line in enumerate(lines, 1) if line.strip() and line[0] != "#"]
     if not written:

@@ -44,7 +44,7 @@ from adamslite.language.messages.systems import SYSTEMS
 from adamslite.language.messages.tables import TABLES
 from adamslite.language.not_supported import INSTEAD
 from adamslite.language.text import ignored
-from adamslite.notation import shown
+from adamslite.notation import shown, visible
 
 MESSAGES: dict[str, Message] = (
     STATEMENTS
@@ -89,7 +89,8 @@ def compose(
     words = {name: shortened(name, word) for name, word in words.items()}
     sentence, hint = message.sentence.format(**words), hint or message.hint.format(**words)
     hint = str(shortened("known", hint))
-    return Diagnostic(code, message.severity, shown(sentence), span, shown(hint), *quote)
+    sentence, hint = visible(shown(sentence)), visible(shown(hint))
+    return Diagnostic(code, message.severity, sentence, span, hint, *quote)
 
 
 def shortened(name: str, word: object) -> object:

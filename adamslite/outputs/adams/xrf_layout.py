@@ -7,6 +7,7 @@ import json
 import zlib
 
 from adamslite.language.units import SYMBOLS
+from adamslite.results.untrusted import from_json, inflated
 
 NAMESPACE = "http://www.mscsoftware.com/:xrf10"
 #: A line that holds the texts of the run, in base64 of compressed JSON.
@@ -68,4 +69,4 @@ def unpacked(text: str) -> dict[str, str]:
     marker, _, packed = text.strip().rpartition(" ")
     if marker != OWN:
         return {}
-    return dict(json.loads(zlib.decompress(base64.b64decode(packed))))
+    return dict(from_json(inflated(base64.b64decode(packed))))

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-import json
 import zlib
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from io import BytesIO
 from math import radians
 from pathlib import Path
 from typing import TYPE_CHECKING
 from xml.etree.ElementTree import Element, ParseError, iterparse
+from xml.parsers.expat import ExpatError, ParserCreate
 
 import numpy as np
 
 from adamslite.errors import FormatError
 from adamslite.language.diagnostics import DeckError
+from adamslite.language.text import contents
 from adamslite.outputs.adams.res_text import START, read_text
 from adamslite.outputs.adams.xrf_layout import KINDS, MOTION_WORDS, NAMESPACE, SYMBOL_OF, unpacked
 from adamslite.results.adams_terms import REQUEST_WORDS, from_adams
@@ -23,6 +25,7 @@ from adamslite.results.channels import describe
 from adamslite.results.printed import Printed
 from adamslite.results.results import Results
 from adamslite.results.run_texts import restored
+from adamslite.results.untrusted import from_json
 
 if TYPE_CHECKING:
     from adamslite.results.channels import Channel
@@ -36,6 +39,8 @@ INPUT = "input"
 #: Kinds of steps that give the motion.
 MOTION = ("initialConditions", "dynamic", "kinematic", "static", "quasiStatic", None)
 HEAD = 4096
+#: Results are four elements deep.
+DEEPEST = 20
 
 
 @dataclass
@@ -54,7 +59,7 @@ class _File:
 
 def read_file(path: str | Path) -> Results:
     """Read a results file of ADAMS; see :func:`adamslite.outputs.xrf.read`."""
-    data = Path(path).read_bytes()
+    data = contents(path)
     head = data[:HEAD]
     if head.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<"):
         return _read_xml(path, data)
@@ -69,7 +74,7 @@ def read_file(path: str | Path) -> Results:
 
 
 def _read_xml(path: str | Path, data: bytes) -> Results:
-    if b"<!DOCTYPE" in data[:HEAD]:
+    if _declares_type(data):
         raise FormatError(f"{path} declares a document type, which results files of ADAMS do not")
     found = _File()
     try:
@@ -84,10 +89,36 @@ def _read_xml(path: str | Path, data: bytes) -> Results:
         raise FormatError(f"{path} is damaged: {fault}") from None
 
 
+class _Begun(Exception):
+    """The first element begins."""
+
+
+def _declares_type(data: bytes) -> bool:
+    """Whether there is a document type, by whose entities a small file becomes a large one, or
+    names another file; in any encoding, behind any comment.
+    """
+    found: list[str] = []
+
+    def begin(*_: object) -> None:
+        raise _Begun
+
+    parser = ParserCreate()
+    parser.StartDoctypeDeclHandler = lambda name, *_: found.append(name)
+    parser.EntityDeclHandler = parser.StartElementHandler = begin
+    with suppress(_Begun, ExpatError):  # of which the reader speaks
+        parser.Parse(data, True)
+    return bool(found)
+
+
 def _elements(data: bytes) -> Iterator[Element]:
     """Complete elements in their order, and comments."""
-    for _, element in iterparse(BytesIO(data), events=("end", "comment")):
-        yield element
+    depth = 0
+    for event, element in iterparse(BytesIO(data), events=("start", "end", "comment")):
+        depth += {"start": 1, "end": -1}.get(event, 0)
+        if depth > DEEPEST:
+            raise FormatError(f"its elements lie more than {DEEPEST} deep in each other")
+        if event != "start":
+            yield element
 
 
 def _take(found: _File, element: Element) -> None:
@@ -191,7 +222,7 @@ def _with_run(found: _File, table: np.ndarray, channels: dict[str, Channel]) -> 
     except DeckError:  # a table that it names is not here
         return replace(plain, channels=channels)
     own = from_adams(plain, deck)
-    listed = json.loads(found.texts.get("channels", "[]"))
+    listed = from_json(found.texts.get("channels", "[]"))
     kept = [name for name in listed if name in own]
     ordered = np.column_stack([own[name] for name in kept]) if kept else own.values[:, :0]
     return replace(own, names=tuple(kept), values=ordered, printed=Printed(found.decimals))
