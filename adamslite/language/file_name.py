@@ -13,7 +13,7 @@ from pathlib import Path
 
 # Without a folder, a drive or a stream; one with a dot in front is for the system or hidden, one
 # with a dash would be an option. Windows leaves off dots and blanks at the end.
-PLAIN = re.compile(r"""[^./\\:<>"|?*-]([^/\\:<>"|?*]*[^./\\:<>"|?*\s])?""")
+PLAIN = re.compile(r"""[^./\\:<>"|?*\s-]([^/\\:<>"|?*]*[^./\\:<>"|?*\s])?""")
 # Devices of Windows, whatever follows the first dot.
 DEVICE = re.compile(r"(con|prn|aux|nul|conin\$|conout\$|(com|lpt)[0-9¹²³])\s*(\..*)?", re.I)
 
