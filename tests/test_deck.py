@@ -279,15 +279,15 @@ def test_mistakes_in_command_files_are_told_like_those_in_decks() -> None:
 
 def test_deck_with_everything_reads_quickly_enough_to_be_used() -> None:
     """Statements of one form share their syntax tree: a thousand cost far less than a thousand."""
-    from adamslite.syntax.forms import expression_form, statement_form
+    from adamslite.syntax.forms import _short_form, expression_form
 
     deck_with("")
-    before = statement_form.cache_info().misses + expression_form.cache_info().misses
+    before = _short_form.cache_info().misses + expression_form.cache_info().misses
     lines = (
         f"POINT_MASS/{n}, MASS=1, QG={n},0,0; MARKER/{n}; "
         f"SFORCE/{n}, I={n}, J=1, FUNCTION=-{n}.5*(DM({n},1)-2)"
         for n in range(10, 1010)
     )
     assert len(deck_with("\n".join(lines)).of("SFORCE")) == 1000
-    after = statement_form.cache_info().misses + expression_form.cache_info().misses
+    after = _short_form.cache_info().misses + expression_form.cache_info().misses
     assert after - before <= 4

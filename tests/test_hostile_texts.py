@@ -4,15 +4,21 @@ What grows is counted: bytes, comparisons, messages; never seconds.
 """
 
 import gc
+import re
 import tracemalloc
+from random import Random
 
 import pytest
 
 import adamslite as al
+from adamslite.kernels import collecting, columns
 from adamslite.language import likeness
 from adamslite.language.diagnostics import MOST, QUOTED, LeftOut, limited
 from adamslite.language.likeness import did_you_mean
 from adamslite.language.messages import MESSAGES
+from adamslite.reading import resolver
+from adamslite.syntax import forms
+from adamslite.syntax.tokens import scan
 from benchmarks.hostile_texts import BODIES, KINDS
 
 DECK = f"{BODIES}! what follows is wrong\n"
@@ -135,3 +141,124 @@ def test_one_wrong_letter_is_found_among_many_names():
     for word in ("left_bogie_wheel_777x", "left_bogie_wheel_x77", "left_bogie_hweel_777"):
         assert "LEFT_BOGIE_WHEEL_" in did_you_mean(word, names)
     assert did_you_mean("right_bogie_777", names) == ""
+
+
+# ---- long statements -----------------------------------------------------------------------------
+
+ITEMS = (
+    "A=1", "FLAG", "7", "1 2 3 4 5 6", "F=IF(TIME: MAX(1,2,3,4,5,6), 2, 3)+1", "F=1+2+3+4+5+6+7",
+    "(1, 2, 3, 4, 5, 6)",
+)  # fmt: skip
+KINDS_OF_TOKENS = (
+    "NAME NUMBER PLUS SLASH COLON OTHER COMMA EQUAL BACKSLASH LPAR RPAR LSQB RSQB".split()
+)
+
+
+def random_kinds(random):
+    """Kinds of the tokens of a statement with up to two mistakes of form."""
+    text = "NAME/" + "".join(
+        random.choice(ITEMS) + random.choice([",", ",", ",", "\\", "\\,"])
+        for _ in range(random.randint(1, 9))
+    )
+    kinds = [token[0] for stretch in scan(text) for token in stretch]
+    del kinds[len(kinds) - random.randint(0, 1) :]
+    for _ in range(random.randint(0, 2)):
+        kinds.insert(random.randrange(len(kinds)), random.choice(KINDS_OF_TOKENS))
+    return tuple(kinds)
+
+
+def test_a_long_statement_is_parsed_by_pieces_as_it_is_as_a_whole(monkeypatch):
+    monkeypatch.setattr(forms, "PIECE", 5)
+    monkeypatch.setattr(forms, "RUN", re.compile("[a,]{4,}"))
+    monkeypatch.setattr(forms, "VALUES", re.compile("a{4,}"))
+    random, right = Random(18), 0
+    for _ in range(3000):
+        kinds = random_kinds(random)
+        whole = forms._short_form(kinds)
+        assert forms._long_form(kinds) == whole
+        right += not isinstance(whole, forms.Fault)
+    assert 500 < right < 2500
+
+
+def test_the_parser_sees_little_of_a_long_statement(monkeypatch):
+    """Of a million values side by side two, of values with commas one piece of them."""
+    seen = []
+    parse = forms._form
+    monkeypatch.setattr(
+        forms, "_form", lambda parser, kinds: seen.append(len(kinds)) or parse(parser, kinds)
+    )
+    forms._short_form.cache_clear()
+    head = ("NAME", "SLASH")
+    (one,) = forms.statement_form((*head, *("NUMBER",) * 1_000_000))
+    assert (one.start, one.end) == (2, 1_000_002)
+    items = forms.statement_form((*head, *("NUMBER", "COMMA") * 100_000, "NUMBER"))
+    assert len(items) == 100_001 and items[-1].end == 200_003
+    assert sum(seen) < 2000
+
+
+def test_a_marker_with_a_hundred_thousand_values_has_one_message():
+    found = told(f"{DECK}MARKER/3, PART=2, QP=0{', 0' * 100_000}")
+    assert [(each.code, each.message) for each in found if each.is_error] == [
+        ("value-count", "QP takes 3 values and has 100001")
+    ]
+
+
+# ---- long expressions ----------------------------------------------------------------------------
+
+POINT = """POINT_MASS/3, MASS=1, CM=3, QG=1,0,0
+MARKER/3, POINT_MASS=3
+MARKER/4, PART=1
+"""
+FORCE = "SFORCE/1, TRANSLATIONAL, I=3, J=4, FUNCTION="
+
+
+def compiled(text):
+    return al.compile_model(al.assemble(al.read(f"{BODIES}{POINT}{text}\n")))
+
+
+def refused(text):
+    """The only message about a deck that is not compiled."""
+    with pytest.raises(al.DeckError) as fault:
+        compiled(text)
+    (only,) = fault.value.errors
+    return only
+
+
+def test_an_expression_has_a_longest_length(monkeypatch):
+    monkeypatch.setattr(resolver, "LONGEST", 99)
+    assert not told(f"{DECK}VARIABLE/1, FUNCTION=TIME{'+TIME' * 49}").errors
+    (only,) = told(f"{DECK}VARIABLE/1, FUNCTION=TIME{'+TIME' * 50}")
+    assert only.code == "expression-too-long" and " 101 words" in only.message
+
+
+def test_variables_that_are_written_out_have_a_largest_size(monkeypatch):
+    """Both the force and the VARIABLEs that it is made of are named."""
+    monkeypatch.setattr(columns, "LARGEST", 40)
+    monkeypatch.setattr("adamslite.kernels.binding.LARGEST", 40)
+    chain = "VARIABLE/1, FUNCTION=DM(3,4)\n" + "".join(
+        f"VARIABLE/{n + 1}, FUNCTION=VARVAL({n})*VARVAL({n})+1\n" for n in range(1, 9)
+    )
+    only = refused(f"{chain}{FORCE}VARVAL(9)")
+    assert only.code == "expression-too-large" and "40 operations" in only.message
+    assert only.message.startswith("VARIABLE/") and "VARIABLE/1, VARIABLE/2" in only.hint
+
+
+def test_all_expressions_of_a_deck_have_a_largest_size(monkeypatch):
+    monkeypatch.setattr(collecting, "MOST_IN_ALL", 60)
+    own = "".join(f"VARIABLE/{n}, FUNCTION=DM(3,4)**{n}{'+TIME' * n}\n" for n in range(2, 12))
+    only = refused(f"{own}{FORCE}1")
+    assert only.code == "deck-too-large" and "60 operations" in only.message
+
+
+def test_a_chain_of_doubled_variables_grows_as_its_length():
+    """Written out as a text V40 has 4**40 words."""
+    chain = "VARIABLE/1, FUNCTION=DM(3,4)\n" + "".join(
+        f"VARIABLE/{n + 1}, FUNCTION=(VARVAL({n})*VARVAL({n})+VARVAL({n})*VARVAL({n}))/4\n"
+        for n in range(1, 40)
+    )
+    assert compiled(f"{chain}{FORCE}VARVAL(40)").groups
+
+
+@pytest.mark.parametrize("tower", ["9**9**9**9", "DM(3,4)**9**9**9", "DM(3,4)**1000000"])
+def test_towers_of_powers_are_numbers_or_have_none(tower):
+    assert compiled(f"{FORCE}{tower}").groups

@@ -40,7 +40,7 @@ def abs_(scope: Scope, x: Expr) -> Expr:
     return magnitude(x)
 
 
-@function("MAX", "*x1:number[2..]", edges=_against_first, order=0)
+@function("MAX", "*x1:number[2..100]", edges=_against_first, order=0)
 def max_(scope: Scope, *a: Expr) -> Expr:
     """The largest of its arguments.
 
@@ -49,7 +49,7 @@ def max_(scope: Scope, *a: Expr) -> Expr:
     return reduce(_larger, a)
 
 
-@function("MIN", "*x1:number[2..]", edges=_against_first, order=0)
+@function("MIN", "*x1:number[2..100]", edges=_against_first, order=0)
 def min_(scope: Scope, *a: Expr) -> Expr:
     """The smallest of its arguments.
 

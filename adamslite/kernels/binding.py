@@ -27,7 +27,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from adamslite.kernels.columns import same, slot, transposed
+from adamslite.kernels.columns import LARGEST, TooLarge, same, slot, transposed
 from adamslite.kernels.groups import Binding
 from adamslite.language.expression import Call, Mode, Node, Num, Op, Ref, Time
 from adamslite.language.function import PRODUCTS, find_function
@@ -74,6 +74,7 @@ class Binder:
         self.count = count
         self.takes_rates = False
         self.columns = Binding()
+        self.size = 0
         self.slots: list[Slot] = []
         self.elements: list[tuple[str, Tree, int]] = []
         self.element_keys: list[Sequence[NodeKey]] = []
@@ -198,6 +199,9 @@ class Binder:
     def _bound(self, nodes: Sequence[Any]) -> tuple[Tree, Sequence[float] | None]:
         """An expression, with its values if nothing in it changes."""
         kind = same([*map(type, nodes)])
+        self.size += 1
+        if self.size > LARGEST:
+            raise TooLarge(LARGEST, [*self.written[False][0], *self.written[True][0]])
         if kind is Num:
             values = [node.value for node in nodes]
             return self.number(values), values

@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any
 from adamslite.assembly.start_posture import settle_start
 from adamslite.caching.sources import version_of
 from adamslite.deck.counted_turns import counted, counting
-from adamslite.deck.statement_diagnostics import diagnose_inside
+from adamslite.deck.statement_diagnostics import diagnose, diagnose_inside
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.gc_pause import without_collection
 from adamslite.kernels.binding import Binder, ForceLoop
-from adamslite.kernels.columns import Split, same, transposed
+from adamslite.kernels.columns import Split, TooLarge, same, transposed
 from adamslite.kernels.face_writer import FaceWriter
 from adamslite.kernels.faces import faces, output_face
 from adamslite.kernels.groups import LEVELS, Binding, Instances, ShapeGroup
@@ -29,6 +29,10 @@ from adamslite.symbolic.types import Tree
 
 if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
+
+MOST_IN_ALL = 1_000_000
+"""Operations of all shapes of a deck."""
+MOST_NAMED = 5
 
 Numbered = tuple[int, Statement]
 """A statement with its number in the order of groups and instances."""
@@ -121,7 +125,9 @@ class Groups(dict[Tree, Collected]):
         self.order: dict[Tree, int] = {}
         self.order_of: dict[Key, int] = {}
         self.loops: dict[int, Diagnostic] = {}
-        """Forces that depend on themselves, by the number of the statement."""
+        """Forces that depend on themselves or are too large, by the number of the statement."""
+        self.size = 0
+        """Operations of all shapes."""
 
     def key_of_signal(self, key: Tree, variable: Key, reads: list[Key]) -> Tree:
         """The key of a group of this shape that is not evaluated before what the instance reads;
@@ -165,6 +171,10 @@ def add(groups: Groups, model: Model, face: str, statements: list[Numbered]) -> 
         except ForceLoop as loop:
             number, statement = part[0]
             groups.loops[number] = _loop(statement, str(loop))
+        except TooLarge as large:
+            number, statement = part[0]
+            groups.loops[number] = _too_large(statement, large)
+            return
 
 
 def _bind(groups: Groups, model: Model, face: str, numbered: list[Numbered]) -> None:
@@ -172,6 +182,9 @@ def _bind(groups: Groups, model: Model, face: str, numbered: list[Numbered]) -> 
     statements = [statement for _, statement in numbered]
     binder, statement = Binder(model, len(statements)), statements[0]
     fields, own = _faced(binder, statements, face)
+    groups.size += binder.size
+    if groups.size > MOST_IN_ALL:
+        raise TooLarge(MOST_IN_ALL, [*binder.written[False][0], *binder.written[True][0]])
     held = (((each.keyword, each.key) in model.held, each) for each in statements)
     rate = same([on and isinstance(s, Constraint) and s.is_rate(model) for on, s in held])
     key = binder.key(face, (statement.keyword, fields, own, rate))
@@ -207,6 +220,15 @@ def _faced(binder: Binder, statements: list[Statement], face: str) -> tuple[Tree
     if face in ("signal", "stored", "sensor"):
         return fields, binder.node_slot([(face.upper(), each.key) for each in statements])
     return fields, binder.unknowns(statements)
+
+
+def _too_large(statement: Statement, large: TooLarge) -> Diagnostic:
+    """What there is to say of a statement whose expressions grow when VARIABLEs are written out."""
+    code = "deck-too-large" if large.most == MOST_IN_ALL else "expression-too-large"
+    named = [f"VARIABLE/{each}" for each in dict.fromkeys(ids[0] for ids in large.variables)]
+    few = ", ".join(named[:MOST_NAMED]) + ", ..." * (len(named) > MOST_NAMED)
+    hint = f"written out in it: {few}" if named else ""
+    return diagnose(statement, code, hint=hint, most=large.most)
 
 
 def _loop(statement: Statement, other: str) -> Diagnostic:

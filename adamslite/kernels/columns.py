@@ -15,6 +15,22 @@ class Split(Exception):
         self.labels = labels
 
 
+LARGEST = 20_000
+"""Operations of one statement with all that is written out in it; compiling more than that takes
+half a minute and gigabytes.
+"""
+
+
+class TooLarge(Exception):
+    """Expressions of more than ``most`` operations; ``variables`` are columns of the ids of
+    VARIABLEs that are written out in them.
+    """
+
+    def __init__(self, most: int, variables: Sequence[Sequence[int | str]]) -> None:
+        super().__init__(most)
+        self.most, self.variables = most, variables
+
+
 def same(values: Sequence[Any]) -> Any:
     """The value that all have in common; raises :class:`Split`."""
     first = values[0]

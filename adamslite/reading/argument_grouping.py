@@ -194,7 +194,7 @@ class Grouping:
             if current.argument.kind in _LISTS:
                 current.values.append(piece)
             else:
-                current.values[0] = current.values[0] + piece
+                current.values[0] += piece
         elif not self.skipping:
             self._stray(piece)
 

@@ -25,6 +25,8 @@ from adamslite.syntax.syntax_errors import expression_mistake
 from adamslite.syntax.tokens import OPERATORS, Lexeme
 
 DEEPEST = 100
+LONGEST = 100_000
+"""Words, numbers and signs of an expression."""
 LONGEST_CHAIN = 16
 _STAND_IN = Num(0.0)
 
@@ -82,6 +84,11 @@ class Resolver(ExpressionNames):
         return value
 
     def _value(self, tokens: list[Lexeme]) -> Value:
+        if len(tokens) > LONGEST:
+            count = len(tokens)
+            self._refuse(
+                "expression-too-long", tokens[0], tokens[-1], count=count, most=LONGEST
+            )  # fmt: skip
         form = expression_form(tuple([token[0] for token in tokens]))
         if isinstance(form, Fault):
             mistake = expression_mistake(tokens, form)
@@ -93,6 +100,8 @@ class Resolver(ExpressionNames):
 
     def constant(self, tokens: list[Lexeme]) -> float | None:
         """The value of an expression of numbers only; None for anything else."""
+        if len(tokens) > LONGEST:
+            return None
         form = expression_form(tuple([token[0] for token in tokens]))
         if isinstance(form, Fault):
             return None

@@ -12,6 +12,7 @@ number and serves every statement written the same way.
 from __future__ import annotations
 
 import pickle
+import re
 import sys
 from collections.abc import Iterator, Sequence
 from functools import cache, lru_cache
@@ -30,6 +31,20 @@ from adamslite.caching.entries import recall
 
 Tree = tuple[Any, ...]
 """An expression: ``(rule, number of its token, branch, branch ...)``."""
+
+
+HEAD = ("NAME", "SLASH")
+LONG, PIECE = 512, 256
+"""Tokens of a statement above which it is parsed piece by piece, and of a piece."""
+SEPARATORS = ("COMMA", "BACKSLASH")
+BRACKETS = {"LPAR": 1, "LSQB": 1, "RPAR": -1, "RSQB": -1}
+CODES = {
+    "LPAR": "(", "LSQB": "(", "RPAR": ")", "RSQB": ")", "COMMA": ",", **dict.fromkeys(
+        "NAME NUMBER QUOTED PLUS MINUS POWER STAR SLASH COLON OTHER".split(), "a"
+    )
+}  # fmt: skip
+"""Kinds of tokens as letters: brackets, commas, and values, which may follow each other."""
+RUN, VALUES = re.compile("[a,]{99,}"), re.compile("a{99,}")
 
 
 class Fault(NamedTuple):
@@ -152,10 +167,69 @@ def _form(parser: Lark, kinds: tuple[str, ...]) -> Any:
         return Fault(len(kinds) if unexpected.token.type == "$END" else at)
 
 
-@lru_cache(maxsize=8192)
 def statement_form(kinds: tuple[str, ...]) -> tuple[Item, ...] | Fault:
     """The items of a statement from the kinds of its tokens."""
+    return _short_form(kinds) if len(kinds) <= LONG else _long_form(kinds)
+
+
+@lru_cache(maxsize=8192)
+def _short_form(kinds: tuple[str, ...]) -> tuple[Item, ...] | Fault:
+    """The items of a statement that is parsed as a whole."""
     return _form(_parser("deck", "statement"), kinds)
+
+
+def _long_form(kinds: tuple[str, ...]) -> tuple[Item, ...] | Fault:
+    """The items of a statement of any length, parsed piece by piece.
+
+    Between two commas outside of brackets lie items that are those of a shorter statement; of many
+    values without a comma between them, which are one item, the parser sees the first and the last.
+    """
+    if kinds[:2] != HEAD:
+        return Fault(int(kinds[0] == HEAD[0]))
+    seen = _without_runs(kinds)
+    shorter = kinds if len(seen) == len(kinds) else tuple([kinds[at] for at in seen])
+    items: list[Item] = []
+    start = len(HEAD)
+    for end in _ends(shorter):
+        form = _short_form(HEAD + shorter[start:end])
+        shift = start - len(HEAD)
+        if isinstance(form, Fault):
+            at = form.at + shift
+            return Fault(seen[at] if at < len(seen) else len(kinds))
+        for key, first, last, closed in form:
+            key = key if key < 0 else seen[key + shift]
+            items.append(Item(key, seen[first + shift], seen[last + shift - 1] + 1, closed))
+        start = end + 1
+    return tuple(items)
+
+
+def _without_runs(kinds: tuple[str, ...]) -> Sequence[int]:
+    """Numbers of the tokens without those inside long runs of values, where each may be any."""
+    code = "".join([CODES.get(kind, "x") for kind in kinds])
+    seen: list[int] = []
+    done = counted = depth = 0
+    for run in RUN.finditer(code, len(HEAD)):
+        start, end = run.span()
+        depth += sum(code.count(each, counted, start) * by for each, by in (("(", 1), (")", -1)))
+        counted = start
+        for inner in (run,) if depth > 0 else VALUES.finditer(code, start, end):
+            seen += range(done, inner.start() + 1)
+            done = inner.end() - 1
+    return [*seen, *range(done, len(kinds))] if seen else range(len(kinds))
+
+
+def _ends(kinds: tuple[str, ...]) -> Iterator[int]:
+    """Where pieces of a statement end: at commas between items, and at its own end."""
+    depth, least = 0, len(HEAD) + PIECE
+    for at, kind in enumerate(kinds):
+        if kind in SEPARATORS:
+            between = kinds[at - 1] not in SEPARATORS and kinds[at + 1 : at + 2] != ("COMMA",)
+            if depth == 0 and at >= least and kind == "COMMA" and between and at + 1 < len(kinds):
+                yield at
+                least = at + PIECE
+        elif kind in BRACKETS:
+            depth += BRACKETS[kind]
+    yield len(kinds)
 
 
 @lru_cache(maxsize=8192)

@@ -17,6 +17,8 @@ from adamslite.syntax.tokens import CLOSES, OPERATORS, Lexeme, end_of
 
 MOST_MISTAKES = 20
 """After so many in one statement the rest of it is skipped."""
+LONG, FEWER_MISTAKES = 10_000, 3
+"""Tokens of a statement that is looked through less often."""
 
 WRITTEN = {
     "^": "a power is written **",
@@ -107,13 +109,14 @@ def statement_syntax(logical: Logical) -> tuple[Syntax | None, Faults]:
     tokens = logical.tokens
     found: Faults = []
     cut: list[str] = []
+    most = MOST_MISTAKES if len(tokens) <= LONG else FEWER_MISTAKES
     while True:
         form = statement_form(tuple([token[0] for token in tokens]))
         if not isinstance(form, Fault):
             return Syntax(tokens, form, logical.name, not found, tuple(cut)), found
         mistake = _statement_mistake(tokens, form.at)
         found.append((mistake, tokens))
-        if form.at < 2 or len(found) == MOST_MISTAKES:
+        if form.at < 2 or len(found) == most:
             return None, found
         tokens, item = _without_item(tokens, form.at)
         cut += _keywords(item)
@@ -195,8 +198,7 @@ def _without_item(tokens: list[Lexeme], at: int) -> tuple[list[Lexeme], list[Lex
     left, item, right = tokens[:start], tokens[start:end], tokens[end:]
     while len(left) > 2 and left[-1][0] in _SEPARATORS:
         left.pop()
-    while right and right[0][0] in _SEPARATORS:
-        right = right[1:]
+    right = right[next((n for n, each in enumerate(right) if each[0] not in _SEPARATORS), None) :]
     if len(left) > 2 and right:
         left.append(("COMMA", "", right[0][2]))
     return left + right, item

@@ -30,6 +30,18 @@ EXPRESSIONS: dict[str, Message] = {
         "commas and colons separate the arguments of functions only",
         _variables("(1:2)", "1:2"),
     ),
+    "expression-too-large": Message(
+        "{label} has more than {most} operations when the VARIABLEs in it are written out",
+        "a SPLINE in place of long sums; what is solved for (DIFF, MOTION) is not written out",
+    ),
+    "deck-too-large": Message(
+        "with {label} the deck has more than {most} operations when VARIABLEs are written out",
+        "chains of VARIABLEs are written out in each that follows: shorter ones, or a DIFF between",
+    ),
+    "expression-too-long": Message(
+        "the expression has {count} words, numbers and signs, and {most} are the most",
+        "put parts of it into VARIABLEs of their own; numbers of a table belong in a SPLINE",
+    ),
     "too-deep": Message(
         "the expression is nested more than {limit} deep",
         "put inner parts into a VARIABLE of their own",
