@@ -112,6 +112,9 @@ def add_run_flags(parser: argparse.ArgumentParser) -> None:
         "--max-steps", type=count, metavar="N",
         help="steps of integration; without, a run ends after 10000 steps below 1e-10 of it",
     )  # fmt: skip
+    limits.add_argument(
+        "--memory-limit", metavar="SIZE", help="data of the process, as 2GB; kept by Linux alone"
+    )
 
 
 def run_options(args: argparse.Namespace) -> dict[str, Any]:
@@ -128,6 +131,7 @@ def run_options(args: argparse.Namespace) -> dict[str, Any]:
         "confirm",
         "cpu_limit",
         "max_steps",
+        "memory_limit",
     )
     return {name: getattr(args, name) for name in names if getattr(args, name) is not None}
 

@@ -141,11 +141,12 @@ def run_scene(
     progress: Progress | None = None,
     folder: Path | None = None,
     journal: "Journal | None" = None,
+    output: Path | None = None,
 ) -> "Results":
     """Simulate a scene; `options` are keyword arguments of `simulate`.
 
     The files of SAVE and RELOAD are in `folder`; without it they are in memory. `journal` keeps a
-    run that takes long.
+    run that takes long. `output` is the file of the results, which the disk has to have room for.
 
     Raises
     ------
@@ -157,4 +158,5 @@ def run_scene(
 
         options = {**options, "files": SavedFiles(folder)}
     options = {**options, "journal": journal} if journal else options
+    options = {**options, "file": output} if output else options
     return adamslite.simulate(scene.deck, commands=scene.commands, progress=progress, **options)

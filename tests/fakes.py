@@ -53,7 +53,7 @@ class Pipeline:
     calls: list[dict[str, Any]] = field(default_factory=list)
     commands_read: list[Any] = field(default_factory=list)
 
-    def simulate(self, deck: Any, journal: Any = None, **options: Any) -> Results:
+    def simulate(self, deck: Any, journal: Any = None, file: Any = None, **options: Any) -> Results:
         self.calls.append(options)
         return self.results
 

@@ -180,3 +180,12 @@ def test_the_command_line_keeps_what_there_is(tmp_path: Path, capsys: Any) -> No
     kept = al.Results.load(out)
     assert 100 < len(kept.time) <= 201
     assert "STEP_LIMIT" in out.read_text()
+
+
+def test_every_run_of_a_sweep_has_its_limits() -> None:
+    """A spring of 1e6 N/m moves the mass through 1000 rad."""
+    found = al.sweep(
+        al.read(SPRING), {"SPRINGDAMPER/1.K": [1.0, 1e6]}, measures=["max POINT_MASS/2.x"],
+        end=1.0, steps=5, max_steps=100, integrator="RADAU", workers=1,
+    )  # fmt: skip
+    assert list(found.outcomes) == ["DONE", "STEP_LIMIT"]

@@ -16,7 +16,7 @@ PACKAGE = Path(adamslite.__file__).parent
 #: Rooms and single modules from the ground up. A room in the same line as another neither imports
 #: it nor is imported by it.
 FLOORS = """
-notation resources gc_pause
+notation resources gc_pause machine
 errors
 caching
 native

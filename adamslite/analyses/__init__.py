@@ -2,7 +2,8 @@
 
 Read simulation first: `simulate` takes a deck, a model or kernels to results. What it goes through:
 
-subject, run_options           what is simulated, and how
+subject, run_options           what is simulated, how, and with what limits
+output_times, run_size         what is carried out, and whether there is room for it
 session, session_state         the commands in turn, and the state that they leave
 dynamic, static, kinematic     the analyses; method_choice, planar_reduction, delays prepare them
 saves, saved_state, info       SAVE, RELOAD, INFO

@@ -56,6 +56,8 @@ def _contradiction(unclosed: Unclosed) -> str:
 def _when(system: System) -> str:
     """Time, number and size of the last step tried, its order."""
     report = system.report
+    if not report.h:
+        return _where(system)
     step = system.count.steps + 1
     text = f"at t = {report.t:.9g}, in step {step} of size {report.h:.3g}"
     text += " (HMIN)" if _is_least(system) else ""
@@ -268,6 +270,7 @@ REASONS = {
     Outcome.CREEPING: _overspent,
     Outcome.STEP_LIMIT: _overspent,
     Outcome.CPU_LIMIT: _overspent,
+    Outcome.MEMORY_LIMIT: _where,
     Outcome.NOT_KINEMATIC: _not_kinematic,
     Outcome.INITIAL_CONDITIONS_FAILED: _where,
 }

@@ -8,14 +8,15 @@ from outside, as interruptions are, and between the steps of analyses that are n
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from math import inf, nan
 from numbers import Integral, Real
 from typing import TYPE_CHECKING, Any
 
 from adamslite.elements.integrator import Integrator
-from adamslite.errors import UsageError
+from adamslite.errors import RunFailed, UsageError
 from adamslite.language.likeness import did_you_mean
 from adamslite.results.outcomes import Outcome
 
@@ -24,6 +25,11 @@ if TYPE_CHECKING:
 
 POSITIVE = ("end", "error", "hmax", "cpu_limit")
 WHOLE = ("steps", "max_steps")
+#: Units of memory [byte].
+UNITS = {
+    "": 1, "B": 1, "KB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12,
+    "KIB": 2**10, "MIB": 2**20, "GIB": 2**30, "TIB": 2**40,
+}  # fmt: skip
 FORMULATIONS = ("I3", "SI2")
 #: Of an analysis; a step below this share is no progress.
 CREEPING = 1e-10
@@ -35,7 +41,8 @@ LEAST = 1e-3
 
 
 def checked(options: Mapping[str, Any]) -> dict[str, Any]:
-    """Those of ``end steps integrator formulation error hmax cpu_limit max_steps`` that are given.
+    """Those of ``end steps integrator formulation error hmax cpu_limit max_steps memory_limit``
+    that are given.
 
     Raises
     ------
@@ -49,6 +56,8 @@ def checked(options: Mapping[str, Any]) -> dict[str, Any]:
     for name in WHOLE:
         if name in given:
             given[name] = _count(name, given[name])
+    if "memory_limit" in given:
+        given["memory_limit"] = size_of(given["memory_limit"])
     names = {
         "integrator": Integrator.arguments["method"].supported,
         "formulation": FORMULATIONS,
@@ -64,6 +73,27 @@ def _positive(name: str, value: object) -> float:
     if not 0.0 < number < inf:
         raise UsageError(f"{_flag(name)} {value}: it must be a positive number")
     return number
+
+
+def size_of(value: object) -> int:
+    """The bytes of ``2GB``, ``500 MiB`` or a number of them.
+
+    Raises
+    ------
+    UsageError
+        When it is none, or not positive.
+    """
+    text = str(value).strip().upper()
+    figures = text.rstrip("KMGTIB ")
+    try:
+        size = float(figures) * UNITS[text[len(figures) :].strip()]
+    except (ValueError, KeyError):
+        size = nan
+    if not 1.0 <= size < inf:
+        raise UsageError(
+            f"--memory-limit {value}: it must be a size, as 2GB, 500MB or a number of bytes"
+        )
+    return int(size)
 
 
 def _flag(name: str) -> str:
@@ -144,3 +174,23 @@ class Budget:
             return Outcome.CPU_LIMIT
         spent = self.steps is not None and self.taken + steps >= self.steps
         return Outcome.STEP_LIMIT if spent else None
+
+
+@contextmanager
+def within_memory(limit: int | None) -> Iterator[None]:
+    """Meanwhile, memory is limited; what runs out of it has a name."""
+    try:
+        if limit is None:
+            yield
+            return
+        from adamslite.machine import left_of_limit, memory_limited, used_memory
+
+        with memory_limited(limit):
+            if not left_of_limit():
+                own = (used_memory() or 0) / 1e6
+                raise UsageError(
+                    f"--memory-limit {limit}: before the run the process takes {own:.0f} MB"
+                )
+            yield
+    except MemoryError:
+        raise RunFailed(Outcome.MEMORY_LIMIT.sentence) from None

@@ -51,11 +51,15 @@ if TYPE_CHECKING:
     from adamslite.elements.save import Save
     from adamslite.elements.simulate import Simulate
     from adamslite.equations.system import System
+    from adamslite.kernels.groups import Kernels
 
 # Outcomes after which the rank of the constraints is computed again.
 STALLED = (Outcome.NEWTON_FAILED, Outcome.STEP_TOO_SMALL)
 # Outcomes after which nothing else is tried.
-OVERSPENT = (Outcome.INTERRUPTED, Outcome.CPU_LIMIT, Outcome.STEP_LIMIT, Outcome.CREEPING)
+OVERSPENT = (
+    Outcome.INTERRUPTED, Outcome.CPU_LIMIT, Outcome.STEP_LIMIT, Outcome.CREEPING,
+    Outcome.MEMORY_LIMIT,
+)  # fmt: skip
 
 
 class Session(SessionState):
@@ -69,14 +73,21 @@ class Session(SessionState):
             before = self.kernels, self.present
             try:
                 self._carry_out(command)
-            except KeyboardInterrupt:
-                if not self.history.stretches:
-                    raise
-                # What is half done, as a model that is being changed, is not reported on.
-                self.kernels, self.present = before
-                self.outcome = Outcome.INTERRUPTED
+            except (KeyboardInterrupt, MemoryError) as fault:
+                self._end_by(fault, *before)
             if self.deck.user.failed:
                 self.outcome = Outcome.ROUTINE_FAILED
+
+    def _end_by(self, fault: BaseException, kernels: Kernels, present: System | None) -> None:
+        """Keep what earlier commands have written, and nothing of what is half done, as a model
+        that is being changed.
+        """
+        if not self.history.stretches:
+            raise fault
+        self.kernels, self.present = kernels, present
+        self.outcome = Outcome.INTERRUPTED
+        if isinstance(fault, MemoryError):
+            self.end_for_memory()
 
     def _carry_out(self, command: Command) -> None:
         self._keep_senvals()

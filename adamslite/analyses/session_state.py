@@ -174,6 +174,13 @@ class SessionState:
 
         return start_of_joints(system, self.progress)
 
+    def end_for_memory(self) -> None:
+        """The run ends; what there is takes some memory more to be kept, and gets it."""
+        from adamslite.machine import lift_memory_limit
+
+        self.outcome = Outcome.MEMORY_LIMIT
+        lift_memory_limit()
+
     def prepare(self) -> None:
         """Number and assemble the equations now."""
         self.present = self.system
@@ -242,7 +249,11 @@ class SessionState:
         """Keep the records made, of which only those ``wanted`` were requested."""
         self.out_of_law = system.instances.out_of_law() | self.out_of_law
         self.apart.look(system)
-        self._add(system, times, static, wanted)
+        try:
+            self._add(system, times, static, wanted)
+        except MemoryError:
+            self.end_for_memory()
+            self._add(system, times, static, wanted)
         self.began_static = static
         self.counts.add(system.count)
 

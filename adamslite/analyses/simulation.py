@@ -14,14 +14,13 @@ import numpy as np
 
 from adamslite.analyses.accuracy_notes import accuracy_notes
 from adamslite.analyses.buckling import buckled
-from adamslite.analyses.output_times import spread_times
-from adamslite.analyses.run_options import Budget, checked
+from adamslite.analyses.output_times import SETTINGS, dynamics, need_room, plan_of
+from adamslite.analyses.run_options import Budget, checked, within_memory
 from adamslite.analyses.session import Session
 from adamslite.analyses.slack import compressed
 from adamslite.analyses.subject import deck_of, prepared_for
 from adamslite.deck.element_switch import Switch
 from adamslite.deck.redefinition import Redefinition
-from adamslite.elements.simulate import Simulate
 from adamslite.equations.result_columns import column_names
 from adamslite.equations.unknown_names import placed
 from adamslite.errors import RunFailed, UsageError
@@ -29,12 +28,13 @@ from adamslite.integrators.linalg.plan import TINY
 from adamslite.language.method import without_effect
 from adamslite.model.reduction import MERGED, kept_apart, left_off
 from adamslite.outputs.saved_files import SavedFiles
-from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 from adamslite.results.source import source_of
 
 # Few runs need them, and they take a while to load.
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from adamslite.analyses.history import History, Journal
     from adamslite.analyses.subject import Subject
     from adamslite.deck.deck import Deck
@@ -45,7 +45,6 @@ if TYPE_CHECKING:
     from adamslite.results.linearization import Linearization
     from adamslite.results.source import RunSource
 
-SETTINGS = ("INTEGRATOR", "EQUILIBRIUM", "KINEMATICS")
 CAPPED = (
     "held at 2: stiff vibrations without damping limited the steps of higher orders; HHT suits "
     "such a scene"
@@ -79,12 +78,15 @@ def simulate(
     notes: bool = True,
     cpu_limit: float | None = None,
     max_steps: int | None = None,
+    memory_limit: int | str | None = None,
+    output: Path | None = None,
     journal: Journal | None = None,
 ) -> Results:
     """Run a deck, a model or its kernels; ``commands`` are statements.
 
-    Without ``notes`` the results say nothing of the run in words, which takes a while; ``journal``
-    keeps a run that takes long. The other arguments are those of :func:`adamslite.simulate`.
+    Without ``notes`` the results say nothing of the run in words, which takes a while; ``output``
+    is the file that they will be written to, for which there has to be room; ``journal`` keeps a
+    run that takes long. The other arguments are those of :func:`adamslite.simulate`.
 
     Raises
     ------
@@ -96,20 +98,27 @@ def simulate(
     commands = tuple(commands)
     options = checked(
         {"end": end, "steps": steps, "integrator": integrator, "formulation": formulation,
-         "error": error, "hmax": hmax, "cpu_limit": cpu_limit, "max_steps": max_steps}
+         "error": error, "hmax": hmax, "cpu_limit": cpu_limit, "max_steps": max_steps,
+         "memory_limit": memory_limit}
     )  # fmt: skip
+    memory = options.pop("memory_limit", None)
     budget = Budget(options.pop("cpu_limit", None), options.pop("max_steps", None), began)
     end, steps = options.pop("end", None), options.pop("steps", None)
     flags = {{"integrator": "method"}.get(name, name): each for name, each in options.items()}
     plan = plan_of(deck_of(scene), commands, end, steps)
     files = files or SavedFiles()
     without = left_off(no_reduction) | kept_apart(plan, audit)
-    subject = prepared_for(scene, commands)
-    session = Session(subject, progress, flags, without, audit, files, budget, journal)
     wanted = (outputs,) if isinstance(outputs, str) else tuple(outputs)
-    if wanted:
-        _need_columns(session, wanted)
-    results = _results(session, _carried_out(session, plan, began), notes, source)
+    with within_memory(memory):
+        subject = prepared_for(scene, commands)
+        session = Session(subject, progress, flags, without, audit, files, budget, journal)
+        kept = _columns_kept(session, wanted)
+
+        def need_its_room() -> None:
+            need_room(session.system, plan, kept, output, journal is not None)
+
+        cpu = _carried_out(session, plan, began, need_its_room)
+        results = _results_in_memory(session, cpu, notes, source)
     if confirm:
         again = partial(
             simulate, scene, end, steps, commands=commands, progress=progress,
@@ -123,10 +132,24 @@ def simulate(
 # Most runs need none of what the following functions import.
 
 
-def _need_columns(session: Session, wanted: tuple[str, ...]) -> None:
+def _columns_kept(session: Session, wanted: tuple[str, ...]) -> int:
+    """How many columns are written; raises UsageError for a pattern that means none."""
+    if not wanted:
+        return len(column_names(session.kernels))
     from adamslite.results.selection import selected
 
-    selected(column_names(session.kernels), wanted)
+    return len(selected(column_names(session.kernels), wanted))
+
+
+def _results_in_memory(
+    session: Session, cpu: tuple[float, float], notes: bool, source: RunSource
+) -> Results:
+    """The results, without a word where there is no memory for notes."""
+    try:
+        return _results(session, cpu, notes, source)
+    except MemoryError:
+        session.end_for_memory()
+    return _results(session, cpu, False, source)
 
 
 def _limited(results: Results, wanted: tuple[str, ...]) -> Results:
@@ -142,11 +165,14 @@ def explained(session: Session) -> str:
     return explain(session.system, session.outcome, session.unclosed)
 
 
-def _carried_out(session: Session, plan: list[Command], began: float) -> tuple[float, float]:
+def _carried_out(
+    session: Session, plan: list[Command], began: float, need_room: Callable[[], None]
+) -> tuple[float, float]:
     """Carry out the plan; CPU [s] of what comes before the first step, and of the rest."""
     first = next((k for k, c in enumerate(plan) if not _sets_up(c)), len(plan))
     session.execute(plan[:first])
     session.prepare()
+    need_room()
     ready = clock.process_time()
     session.execute(plan[first:])
     late, now = session.late_setup, clock.process_time()
@@ -193,7 +219,7 @@ def linearize(
     deck = deck_of(scene)
     marker = None if rm is None else _marker(deck, str(rm))
     settings = (s for s in deck.statements if s.keyword in ("INTEGRATOR", "EQUILIBRIUM"))
-    plan: list[Command] = [*settings, *commands, *([_dynamics(time)] if time else [])]
+    plan: list[Command] = [*settings, *commands, *([dynamics(time)] if time else [])]
     session = Session(prepared_for(scene, plan), None, {}, frozenset({MERGED}))
     session.execute(plan)
     system = session.system
@@ -217,50 +243,6 @@ def _marker(deck: Deck, word: str) -> Key:
         hint = did_you_mean(word, deck.names.known("MARKER"))
         raise UsageError(f"--rm {word}: there is no MARKER/{word}" + (f"; {hint}" if hint else ""))
     return found.key
-
-
-def _dynamics(
-    end: float | None,
-    duration: float | None = None,
-    steps: int | None = None,
-    dtout: float | None = None,
-) -> Simulate:
-    """A dynamic run requested by flags instead of a SIMULATE statement.
-
-    Raises
-    ------
-    UsageError
-        When it has no end, or one before zero, or too many steps.
-    """
-    least = end if end is not None else duration
-    if least is None:
-        raise UsageError(Outcome.NO_END_TIME.value)
-    spread_times(0.0, least, steps, dtout)
-    return Simulate(kind="DYNAMICS", end=end, duration=duration, steps=steps, dtout=dtout)
-
-
-def plan_of(
-    deck: Deck, commands: tuple[Command, ...], end: float | None, steps: int | None
-) -> list[Command]:
-    """What to carry out: settings of the deck, then the commands, or the deck's own SIMULATE
-    statements.
-
-    Flags replace the last SIMULATE, where it stands; one that takes no time is not replaced.
-    """
-    own = [s for s in deck.statements if s.keyword in SETTINGS]
-    given = any(isinstance(c, Simulate) for c in commands)
-    plan: list[Command] = [*own, *([] if given else deck.of(Simulate)), *commands]
-    plan = [each for each in plan if each.keyword != "STOP"]
-    runs = [(k, each) for k, each in enumerate(plan) if isinstance(each, Simulate)]
-    if end is None and not runs:
-        raise UsageError(Outcome.NO_END_TIME.value)
-    if end is None and steps is None:
-        return plan
-    at, last = next((run for run in reversed(runs) if not run[1].at_once), (len(plan), None))
-    dtout = last.dtout if last and steps is None else None
-    if end is None and last:
-        return [*plan[:at], _dynamics(last.end, last.duration, steps, dtout), *plan[at + 1 :]]
-    return [*plan[:at], _dynamics(end, steps=steps, dtout=dtout), *plan[at + 1 :]]
 
 
 def _without_value(history: History) -> dict[str, str]:

@@ -20,7 +20,10 @@ class Worker:
         self._fault: BaseException | None = None
         self._busy = allocate_lock()
         self._busy.acquire()
-        start_new_thread(self._run, ())
+        try:
+            start_new_thread(self._run, ())
+        except RuntimeError:  # there is no room for its stack
+            raise MemoryError from None
 
     def _run(self) -> None:
         try:

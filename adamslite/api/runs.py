@@ -39,6 +39,8 @@ def simulate(
     outputs: Iterable[str] = (),
     cpu_limit: float | None = None,
     max_steps: int | None = None,
+    memory_limit: int | str | None = None,
+    file: str | os.PathLike[str] | None = None,
     journal: Journal | None = None,
 ) -> Results:
     """Run a deck, as `adamslite solve` does.
@@ -78,6 +80,14 @@ def simulate(
     journal : adamslite.analyses.history.Journal
         Where a run is kept that takes long, as the command line has it; not kept unless given.
 
+    memory_limit : int or str
+        Data of this process, all its threads, in byte or as "2GB", beyond which allocations fail
+        while the run lasts, and it ends as MEMORY_LIMIT. Only Linux keeps it; elsewhere what the
+        run is estimated to need is held against it.
+
+    file : str or Path
+        Where the results will be saved: a run is refused whose results the disk has no room for.
+
     Warns
     -----
     DeckWarning
@@ -87,6 +97,8 @@ def simulate(
     ------
     DeckError
         With everything that is wrong in deck and commands.
+    RunFailed
+        When there is no memory for as much as the start of the run.
     UsageError
         When nothing says how long to run, or an argument is not what it has to be.
     """
@@ -96,7 +108,8 @@ def simulate(
         return simulation.simulate(
             given.subject, end, steps, integrator, formulation, error, hmax, given.commands,
             shown, no_reduction, audit, confirm, kept, outputs,
-            cpu_limit=cpu_limit, max_steps=max_steps, journal=journal,
+            cpu_limit=cpu_limit, max_steps=max_steps, memory_limit=memory_limit,
+            output=Path(file) if file else None, journal=journal,
         )  # fmt: skip
 
 

@@ -41,6 +41,8 @@ def sweep(
     commands: CommandSource = None,
     user: User = None,
     progress: Progress | Callable[[float, float], Any] | bool | None = None,
+    cpu_limit: float | None = None,
+    max_steps: int | None = None,
 ) -> Sweep:
     """Run a deck many times with other numbers, on all processors.
 
@@ -76,6 +78,9 @@ def sweep(
         As for :func:`adamslite.simulate`.
     progress : bool, callable or Progress
         A function is called with how many runs are done and how many there are.
+    cpu_limit, max_steps : float, int
+        Of each run, as for :func:`adamslite.simulate`; with ``by="threads"`` the CPU is that of all
+        runs of this process together.
 
     Returns
     -------
@@ -94,7 +99,7 @@ def sweep(
     deck = deck_of(given.subject)
     flags = {
         "end": end, "steps": steps, "integrator": integrator, "formulation": formulation,
-        "error": error, "hmax": hmax,
+        "error": error, "hmax": hmax, "cpu_limit": cpu_limit, "max_steps": max_steps,
     }  # fmt: skip
     options = {name: each for name, each in flags.items() if each is not None}
     read = [deck.path] if deck.path else []

@@ -109,6 +109,7 @@ GARBAGE = 1_000_000
 
 NOT_PIPED = "; standard input is not read, because files of results and commands take their names"
 NOT_PIPED += " from that of the deck"
+NO_MEMORY = "there is not enough memory for that; no file was changed"
 REPORT = (
     "adamslite: a fault in the program, not in your deck: {fault}\n"
     "Please report it with the deck and the output of the same command with --debug."
@@ -329,6 +330,9 @@ def _explain(fault: Exception) -> int:
         return USAGE
     if isinstance(fault, RunFailed):
         _tell(f"adamslite: {fault}")
+        return STOPPED_EARLY
+    if isinstance(fault, MemoryError):
+        _tell(f"adamslite: {NO_MEMORY}")
         return STOPPED_EARLY
     if isinstance(fault, FormatError):
         _tell(f"adamslite: {fault}")

@@ -28,6 +28,9 @@ def digest(*parts: str) -> str:
 # LLVM takes functions in up to this size. Its own 250 makes the integrators a third longer to
 # compile, and no faster.
 INLINED = 100
+# Memory of LLVM [byte], and for each letter of a text: measured 30 MB, and 30 for each letter. It
+# ends the process where it gets none.
+OF_LLVM, PER_LETTER = 40_000_000, 60
 
 
 def object_code(text: str) -> bytes:
@@ -77,6 +80,9 @@ def straight_code(text: str) -> bytes:
 
 def _compiled(text: str, level: int, passes_of: Callable[[Any], Any]) -> bytes:
     """Object code by the passes that ``passes_of`` takes from a builder of passes."""
+    from adamslite.machine import require_memory
+
+    require_memory(OF_LLVM + PER_LETTER * len(text))
     import llvmlite.binding as llvm
 
     machine = processor.target_machine() if level else processor.quick_machine()

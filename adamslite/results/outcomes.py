@@ -88,6 +88,11 @@ class Outcome(Enum):
         "kept. Allow more time, or let the run need less: an earlier END, fewer outputs, a larger "
         "ERROR, another integrator (`adamslite chart` compares them)."
     )
+    MEMORY_LIMIT = (
+        "The run needs more memory than there is, or than --memory-limit allows; everything "
+        "computed until then is kept. Allow more, or request fewer outputs (fewer STEPS, a longer "
+        "DTOUT)."
+    )
     NO_END_TIME = (
         "There is no end time. Give SIMULATE/DYNAMIC, END=..., STEPS=... in a command file "
         "(second argument, or a .acf of the deck's name beside it), or in the deck itself, "

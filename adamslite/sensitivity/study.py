@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from adamslite.analyses.output_times import plan_of
 from adamslite.analyses.run_options import checked
-from adamslite.analyses.simulation import explained, plan_of
+from adamslite.analyses.simulation import explained
 from adamslite.analyses.subject import deck_of, kernels_of, prepared_for
 from adamslite.equations.result_columns import columns
 from adamslite.errors import RunFailed, UsageError

@@ -98,8 +98,9 @@ def run(args: argparse.Namespace) -> int:
     _end_by_signals()
     progress = Progress() if args.quiet else TalkingProgress()
     try:
-        folder = None if output == STDOUT else Path(output).parent
-        results = run_scene(scene, _options(args), progress, folder, journal)
+        path = None if output == STDOUT else Path(output)
+        folder = path.parent if path else None
+        results = run_scene(scene, _options(args), progress, folder, journal, path)
     finally:
         progress.close()
     written = _write(results, output, files)

@@ -67,6 +67,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     flags.add_argument("--integrator", type=str.upper, metavar="NAME", help="GSTIFF, ...")
     flags.add_argument("--error", type=positive, metavar="TOL", help="integration error per step")
     flags.add_argument("--hmax", type=positive, metavar="H", help="largest step")
+    flags.add_argument("--cpu-limit", type=positive, metavar="S", help="CPU of each run in seconds")
+    flags.add_argument("--max-steps", type=count, metavar="N", help="steps of each run")
     parser.add_argument("--quiet", action="store_true", help="print nothing unless runs fail")
 
 
@@ -88,7 +90,7 @@ def run(args: argparse.Namespace) -> int:
         raise UsageError(f"-o {output}: the file of a sweep ends in .nc")
     scene = load_scene(args.deck, args.commands, args.user, args.values)
     wanted = Wanted(args.varied, args.sample, args.seed, args.measures, args.outputs)
-    flags = ("end", "steps", "integrator", "error", "hmax")
+    flags = ("end", "steps", "integrator", "error", "hmax", "cpu_limit", "max_steps")
     options = {name: getattr(args, name) for name in flags if getattr(args, name) is not None}
     means = Means(args.workers, "threads" if args.threads else "processes", args.scheduler)
     progress = Progress() if args.quiet else TalkingProgress()

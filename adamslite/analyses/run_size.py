@@ -1,0 +1,84 @@
+"""The size of a run before it begins: rows, columns, memory and disk.
+
+With n rows, c columns and w numbers in a record (workspace and outputs), a run takes at its height
+
+    8 n (w + 2 c + 5)     byte: the record, its columns, what is found of them; times
+
+(c for 2 c where the columns are a part of the record, those of point masses alone), and formats
+that are put together in memory, all but tables, 8 n c more.  A file takes 8 n (c + 1) byte at
+least, and as much again while rows are kept in a file; then none of them is in memory but times.
+Numbers that use all their digits take 19 as text, those that are zero 4.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import NamedTuple
+
+from adamslite.errors import UsageError
+from adamslite.machine import free_disk, free_memory
+
+NUMBER, OF_TIME = 8, 5
+#: Formats that are written row by row.
+BY_ROWS = (".csv", "")
+GIGA = 1e9
+TOO_LARGE = (
+    "The results would have {rows} rows of {columns} columns, which take {need:.3g} GB of {what}, "
+    "and {free:.3g} GB are free{where}: {remedy}."
+)
+FEWER = "fewer STEPS, a longer DTOUT"
+AS_TABLE = f"{FEWER}, or a table (-o NAME.csv), which is written row by row"
+ELSEWHERE = "fewer columns (--outputs), or another disk"
+
+
+class Rows(NamedTuple):
+    """The rows of a run: how many; their columns, and the numbers of a record, of which the columns
+    are made (``copies`` 2) or a part (1); whether they are kept in a file while the run lasts.
+    """
+
+    number: int
+    columns: int
+    record: int
+    copies: int
+    filed: bool
+
+
+def require_room(rows: Rows, kept: int, file: Path | None) -> None:
+    """Reject a run whose results there is no room for.
+
+    Parameters
+    ----------
+    rows : Rows
+    kept : int
+        Of the columns, those that are written.
+    file : Path or None
+        Where the results will be written.
+
+    Raises
+    ------
+    UsageError
+        With what would be needed, what there is, and what to do.
+    """
+    by_rows = file is None or file.suffix.lower() in BY_ROWS
+    own = 0 if rows.filed else rows.record + rows.copies * rows.columns
+    whole = 0 if by_rows else (3 if rows.filed else 1) * rows.columns
+    memory = NUMBER * rows.number * (own + whole + OF_TIME)
+    _need("memory", memory, free_memory(), rows, rows.columns, "", FEWER if by_rows else AS_TABLE)
+    if file is not None:
+        disk = NUMBER * rows.number * (kept + 1 + rows.filed * (rows.columns + 1))
+        folder = file.resolve().parent
+        where = f" in {folder}"
+        _need("disk", disk, free_disk(folder), rows, kept, where, f"{FEWER}, {ELSEWHERE}")
+
+
+def _need(
+    what: str, need: int, free: int | None, rows: Rows, columns: int, where: str, remedy: str
+) -> None:
+    if free is None or need <= free:
+        return
+    raise UsageError(
+        TOO_LARGE.format(
+            rows=rows.number, columns=columns, need=need / GIGA, what=what, free=free / GIGA,
+            where=where, remedy=remedy,
+        )
+    )  # fmt: skip
