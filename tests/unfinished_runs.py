@@ -46,7 +46,7 @@ def killed(deck: Path, seed: int, kills: int, *words: str) -> tuple[bytes, int]:
     output.unlink(missing_ok=True)
     for _ in range(kills):
         went_on = part.exists()
-        hits += _kill(_words(deck, output, part, words), part, went_on, chance.uniform(0.0, 0.6))
+        hits += _kill(_words(deck, output, part, words), part, went_on, chance.uniform(0.0, 0.4))
         if output.exists() and not part.exists():
             break
     if part.exists() or not output.exists():  # it may have been killed between both

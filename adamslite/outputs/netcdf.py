@@ -21,11 +21,11 @@ import struct
 from collections.abc import Iterator
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
 
-from adamslite.errors import FormatError
+from adamslite.errors import FormatError, UsageError
 from adamslite.language.text import contents
 from adamslite.outputs.whole_files import whole_file
 from adamslite.results.channels import describe
@@ -47,37 +47,120 @@ PLACES = {part: (group, n) for group, parts in GROUPS.items() for n, part in enu
 BODIES = ("PART/", "POINT_MASS/")
 # 64-bit offsets: a file may be larger than 2 GB.
 VERSION = 2
+# Bytes of a variable, and those that the header tells of it.
+LARGEST, LARGEST_TOLD = 2**32 - 4, 2**31 - 8
+TOO_LARGE = (
+    "'{name}' takes {size:.3g} GB, and NetCDF-3 holds {most:.3g} GB of each variable: --outputs "
+    "with fewer columns, fewer STEPS, or -o FILE.csv"
+)
 HDF5 = b"\x89HDF"
 TEXT = "utf-8"
+
+
+class _Later:
+    """The values of a variable, ``columns`` (nb, 3) or one of them (-1: the time), for which there
+    is room: they are written block by block.  ``size`` is that of the header, which readers ignore.
+    """
+
+    itemsize = 8
+
+    def __init__(self, count: int, columns: np.ndarray) -> None:
+        self.columns, self.shape = columns, (count, *columns.shape)
+        self.bytes = self.itemsize * count * columns.size
+        self.size = min(self.bytes, LARGEST_TOLD) // self.itemsize
+
+    def tobytes(self) -> _Later:
+        """What is written: itself, see :class:`_Room`."""
+        return self
+
+    def of(self, time: np.ndarray, values: np.ndarray) -> bytes:
+        """What belongs there of some rows: times (n,), values (n, nc)."""
+        if self.columns.ndim == 0:
+            return (time if self.columns < 0 else values[:, self.columns]).astype(">f8").tobytes()
+        found = values[:, self.columns].astype(">f8")  # -1 takes the last column
+        found[:, self.columns < 0] = np.nan
+        return found.tobytes()
+
+
+class _Room:
+    """A stream that leaves room for values that are written later, and notes where."""
+
+    def __init__(self, stream: IO[bytes]) -> None:
+        self.stream, self.later = stream, dict[int, _Later]()
+        self.seek, self.tell, self.closed = stream.seek, stream.tell, False
+
+    def write(self, data: bytes | _Later) -> None:
+        """Bytes, or room for values."""
+        if isinstance(data, _Later):
+            self.later[self.tell()] = data
+            self.seek(data.bytes, 1)
+        else:
+            self.stream.write(data)
+
+    def fill(self, results: Results) -> None:
+        """Write the values."""
+        first = 0
+        for time, values in results.blocks():
+            for at, each in self.later.items():
+                self.seek(at + first * (each.bytes // max(1, results.count)))
+                self.stream.write(each.of(time, values))
+            first += len(values)
+
+    def close(self) -> None:
+        """The header is written; whose stream it is, closes that."""
+        self.closed = True
 
 
 def write(results: Results, path: str | Path) -> None:
     """Write `results` to the file `path`, whole or not at all."""
     need_rows(results)
     with whole_file(path, binary=True) as stream:
-        stream.write(content(results))
+        write_to(results, stream)
 
 
 def content(results: Results) -> bytes:
     """What a file of `results` holds."""
+    memory = BytesIO()
+    write_to(results, memory)
+    return memory.getvalue()
+
+
+def write_to(results: Results, stream: IO[bytes]) -> None:
+    """Write `results` to an open stream, some rows at a time."""
     from scipy.io import netcdf_file
 
-    memory = BytesIO()
-    file = netcdf_file(memory, "w", version=VERSION)
+    room = _Room(stream)
+    file = netcdf_file(room, "w", version=VERSION)
     for name, text in attributes(results).items():
         setattr(file, name, text.encode(TEXT))
     file.channels = json.dumps(results.names).encode(TEXT)
     # A dimension of length 0 means one that grows, which then has no records.
-    file.createDimension("time", len(results.time) or None)
-    variable = file.createVariable("time", "d", ("time",))
-    variable[:] = results.time
+    file.createDimension("time", results.count or None)
+    variable = _variable(file, "time", ("time",), results, np.array(-1))
     variable.long_name, variable.units = b"time", results.channel("time").unit.encode(TEXT)
     rest = _write_bodies(file, results)
     _write_single(file, results, rest)
-    file.flush()
-    data = memory.getvalue()
     file.close()
-    return data
+    room.fill(results)
+
+
+def _variable(
+    file: Any, name: str, dimensions: tuple[str, ...], results: Results, columns: np.ndarray
+) -> Any:
+    """A variable whose values are these columns.
+
+    Raises
+    ------
+    UsageError
+        When it has no room in the format.
+    """
+    values = _Later(results.count, columns)
+    if values.bytes > LARGEST:
+        raise UsageError(TOO_LARGE.format(name=name, size=values.bytes / 1e9, most=LARGEST / 1e9))
+    variable = file.createVariable(name, "d", dimensions)
+    if results.count:
+        variable.__dict__["data"] = values
+    return variable
 
 
 def _split(name: str) -> tuple[str, str]:
@@ -102,11 +185,8 @@ def _write_bodies(file: Any, results: Results) -> list[int]:
             _label(file, "angle", [word.encode() for word in ANGLE])
     for group, where in columns.items():
         if (where >= 0).any():
-            values = results.values[:, where]  # -1 takes the last column, replaced below
-            values[:, where < 0] = np.nan
             last = "angle" if group == "orientation" else "axis"
-            variable = file.createVariable(group, "d", ("time", "body", last))
-            variable[:] = values
+            variable = _variable(file, group, ("time", "body", last), results, where)
             channel = results.channel(results.names[int(where[where >= 0][0])])
             variable.long_name = f"{channel.quantity}, ground axes".encode()
             variable.units = channel.unit.encode(TEXT)
@@ -127,8 +207,8 @@ def _write_single(file: Any, results: Results, columns: list[int]) -> None:
     used = set(file.variables) | set(file.dimensions)
     for column in columns:
         name = results.names[column]
-        variable = file.createVariable(identifier(name, used), "d", ("time",))
-        variable[:] = results.values[:, column]
+        named = identifier(name, used)
+        variable = _variable(file, named, ("time",), results, np.array(column))
         channel = results.channel(name)
         variable.channel = name.encode(TEXT)
         variable.long_name = channel.long_name.encode(TEXT)

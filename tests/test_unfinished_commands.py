@@ -1,0 +1,194 @@
+"""What the command line says of runs that did not end, and how it goes on with them."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from test_unfinished_runs import pendulum, written
+from unfinished_runs import command, solved
+
+from adamslite.analyses.checkpoint import begin
+from adamslite.cli.main import main
+from adamslite.outputs.part_file import PartFile
+
+#: It runs for some seconds.
+LONG = pendulum(2500, 10000)
+FLAGS = ("--integrator", "GSTIFF", "--error", "1e-6")
+
+
+def until_there_is_a_state(process: subprocess.Popen[bytes], part: Path) -> None:
+    end = time.monotonic() + 120.0
+    while process.poll() is None and time.monotonic() < end:
+        if part.exists() and part.stat().st_size > 100_000:
+            return
+        time.sleep(0.01)
+    raise AssertionError(process.communicate())
+
+
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP", "SIGINT"])
+def test_a_signal_ends_a_run_which_can_go_on(tmp_path: Path, name: str) -> None:
+    deck, output = written(tmp_path, LONG), tmp_path / "x.csv"
+    part = Path(f"{output}.part")
+    process = subprocess.Popen(
+        command(str(deck), "-o", str(output), *FLAGS), stderr=subprocess.PIPE, cwd=tmp_path
+    )
+    until_there_is_a_state(process, part)
+    process.send_signal(getattr(signal, name))
+    error = process.communicate(timeout=120)[1].decode()
+    assert process.returncode == 4
+    assert f"adamslite solve --resume {part}" in error and "Traceback" not in error
+    table = output.read_text().splitlines()
+    assert any(line.startswith("# outcome: INTERRUPTED") for line in table[:12])
+    assert 20 < len(table) < 10000
+    whole = solved(deck, *FLAGS)
+    done = subprocess.run(command("--resume", str(part)), capture_output=True, cwd=tmp_path)
+    assert done.returncode == 0 and output.read_bytes() == whole
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["deck.adm", "undisturbed.csv", "x.csv"]
+
+
+def test_a_short_run_writes_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    deck = written(tmp_path, pendulum(1, 10))
+    made: list[Path] = []
+    create = PartFile.create
+    monkeypatch.setattr(PartFile, "create", lambda path, _: made.append(path) or create(path, _))
+    assert main(["solve", str(deck), "-o", str(tmp_path / "x.csv"), "--quiet"]) == 0
+    assert not made and sorted(p.name for p in tmp_path.iterdir()) == ["deck.adm", "x.csv"]
+
+
+class TestWhatWasLeftBehind:
+    @pytest.fixture
+    def deck(self, tmp_path: Path) -> Path:
+        begin(tmp_path / "x.csv.part", {}, 7.0).close()
+        return written(tmp_path, pendulum(1, 10))
+
+    def test_it_is_reported_and_left_alone(self, deck: Path, capsys) -> None:
+        part = deck.with_name("x.csv.part")
+        before = part.read_bytes()
+        assert main(["solve", str(deck), "-o", str(deck.with_name("x.csv")), "--quiet"]) == 0
+        told = capsys.readouterr().err
+        assert "a run that did not end (t = 0 of 7) has left" in told
+        assert f"adamslite solve --resume {part}" in told
+        assert part.read_bytes() == before
+
+    def test_a_damaged_one_is_reported(self, deck: Path, capsys) -> None:
+        deck.with_name("x.csv.part").write_text("no run")
+        assert main(["solve", str(deck), "-o", str(deck.with_name("x.csv")), "--quiet"]) == 0
+        assert "is damaged" in capsys.readouterr().err
+
+    def test_one_that_is_being_written_ends_the_second_run(self, deck: Path, capsys) -> None:
+        part = PartFile.open(deck.with_name("x.csv.part"))
+        assert main(["solve", str(deck), "-o", str(deck.with_name("x.csv")), "--quiet"]) == 2
+        assert "another run is writing" in capsys.readouterr().err
+        assert not deck.with_name("x.csv").exists()
+        part.close()
+
+
+class TestGoingOn:
+    @pytest.fixture
+    def part(self, tmp_path: Path) -> Path:
+        """The file of a run that was killed."""
+        deck, output = written(tmp_path, LONG), tmp_path / "x.csv"
+        process = subprocess.Popen(
+            command(str(deck), "-o", str(output), *FLAGS), stderr=subprocess.PIPE, cwd=tmp_path
+        )
+        until_there_is_a_state(process, Path(f"{output}.part"))
+        process.kill()
+        process.communicate()
+        return Path(f"{output}.part")
+
+    def test_a_deck_that_has_changed_is_refused(self, part: Path, capsys) -> None:
+        part.with_name("deck.adm").write_text(LONG.replace("MASS=1", "MASS=2"))
+        assert main(["solve", "--resume", str(part)]) == 2
+        assert "deck, commands or tables have changed since" in capsys.readouterr().err
+        assert part.exists()
+
+    def test_flags_of_the_run_are_not_taken_again(self, part: Path, capsys) -> None:
+        more = ["--end", "3", "-o", "y.csv", "--set", "PART/2.MASS=3"]
+        assert main(["solve", "--resume", str(part), *more]) == 2
+        assert "leave out --end, --set, -o" in capsys.readouterr().err
+
+    def test_one_of_another_version_is_refused(self, part: Path, capsys) -> None:
+        changed = PartFile.open(part)
+        facts = {**changed.state["facts"], "program": "another"}
+        changed.commit(changed.write_state({**changed.state, "facts": facts}, changed.arrays))
+        changed.close()
+        assert main(["solve", "--resume", str(part)]) == 2
+        assert "another version of adamslite" in capsys.readouterr().err
+
+    def test_changed_rows_are_refused(self, part: Path, capsys) -> None:
+        open_part = PartFile.open(part)
+        at = open_part.state["stretches"][0][1]
+        open_part.close()
+        data = bytearray(part.read_bytes())
+        data[at] ^= 1
+        part.write_bytes(data)
+        assert main(["solve", "--resume", str(part)]) == 5
+        assert "its rows were changed" in capsys.readouterr().err
+
+    def test_a_state_of_other_arrays_is_refused(self, part: Path, capsys) -> None:
+        """What native code writes to is only what it had room for."""
+        changed = PartFile.open(part)
+        arrays = {**changed.arrays, "q": np.zeros(99)}
+        changed.commit(changed.write_state(changed.state, arrays))
+        changed.close()
+        assert main(["solve", "--resume", str(part)]) == 5
+        assert "it is of another run" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["solve"], "give the name of a deck, or --resume OUT.part"),
+        (["solve", "--resume", "nothing.csv.part"], "No such file"),
+        (["solve", "--resume", "deck.adm"], "the file of a run that did not end is OUT.part"),
+    ],
+)
+def test_what_cannot_go_on(
+    words: list[str], sentence: str, tmp_path: Path, capsys, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    written(tmp_path, pendulum(1, 10))
+    assert main(words) in (2, 5)
+    assert sentence in capsys.readouterr().err
+
+
+MANY = """\
+import resource, sys
+from adamslite.cli.main import main
+code = main()
+print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024)
+sys.exit(code)
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="ru_maxrss in kilobytes")
+@pytest.mark.parametrize("suffix", ["csv", "nc"])
+def test_memory_does_not_grow_with_outputs(tmp_path: Path, suffix: str) -> None:
+    """1e7 outputs of 10 columns: 880 MB of numbers."""
+    text = """\
+a mass on a spring
+PART/1, GROUND
+MARKER/1, PART=1
+POINT_MASS/2, MASS=1, QG=1,0,0, CM=2
+MARKER/2, POINT_MASS=2
+SPRINGDAMPER/1, TRANSLATION, I=2, J=1, K=1, LENGTH=0.5
+END
+"""
+    deck = written(tmp_path, text)
+    found = []
+    for steps in (100, 10_000_000):
+        words = [str(deck), "-o", f"x.{suffix}", "--end", "1e5", "--steps", str(steps), "--quiet"]
+        run = subprocess.run(
+            [sys.executable, "-c", MANY, "solve", *words, "--hmax", "100", "--integrator", "RKF45"],
+            capture_output=True, text=True, cwd=tmp_path, check=True,
+        )  # fmt: skip
+        found.append(int(run.stdout))
+    assert (tmp_path / f"x.{suffix}").stat().st_size > 8e8
+    assert found[1] < 300
