@@ -141,3 +141,22 @@ def stone_res(folder: Path) -> Path:
     text = OF_ADAMS.replace("{0}", falling(0.0)).replace("{1}", falling(0.25))
     path.write_text(text.replace("{2}", falling(0.5)))
     return path
+
+
+def block(title: str, *lines: str) -> str:
+    return "\n".join([f"{title:40}{len(lines) + 1:8}", *lines, "!", ""])
+
+
+def text_form(times: list[float]) -> str:
+    """The older form: a part at (t, 0, 1) that is turned about z by 60 degrees, moving at 1."""
+    turned = (np.cos(np.pi / 6), 0.0, 0.0, np.sin(np.pi / 6))
+    text = block("FILE TYPE AND SOURCE", "ADAMS RESULTS FILE", "A.RE7")
+    text += block("DATA SET TITLE", "a sledge", "")
+    text += block("RIGID PARTS MAP", "       1YESYESNO ", f"{5:20}{5:8}{6:8}{6:8}")
+    text += block("JOINTS MAP", "       0NO")
+    for n, t in enumerate(times):
+        place = "".join(f"{each:12.5E}" for each in (t, 0.0, -1.0, *turned))
+        speed = "".join(f"{each:12.5E}" for each in (1.0, 0.0, 0.0, 0.0, 0.0, -2.0))
+        head = f"{n + 1:8}DYNAMIC"
+        text += block("ANALYSIS OUTPUT BLOCK", head, f"{t:12.5E}", "", "", place, speed)
+    return text

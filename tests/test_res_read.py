@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from adams_decks import stone_res
+from adams_decks import stone_res, text_form
 
 from adamslite.cli.main import main
 from adamslite.errors import FormatError
@@ -92,25 +92,6 @@ def test_damage_is_named(folder: Path, old: str, new: str, sentence: str) -> Non
     Path("adams.res").write_text(text.replace(old, new, 1))
     with pytest.raises(FormatError, match=sentence):
         Results.load("adams.res")
-
-
-def block(title: str, *lines: str) -> str:
-    return "\n".join([f"{title:40}{len(lines) + 1:8}", *lines, "!", ""])
-
-
-def text_form(times: list[float]) -> str:
-    """The older form: a part at (t, 0, 1) that is turned about z by 60 degrees, moving at 1."""
-    turned = (np.cos(np.pi / 6), 0.0, 0.0, np.sin(np.pi / 6))
-    text = block("FILE TYPE AND SOURCE", "ADAMS RESULTS FILE", "A.RE7")
-    text += block("DATA SET TITLE", "a sledge", "")
-    text += block("RIGID PARTS MAP", "       1YESYESNO ", f"{5:20}{5:8}{6:8}{6:8}")
-    text += block("JOINTS MAP", "       0NO")
-    for n, t in enumerate(times):
-        place = "".join(f"{each:12.5E}" for each in (t, 0.0, -1.0, *turned))
-        speed = "".join(f"{each:12.5E}" for each in (1.0, 0.0, 0.0, 0.0, 0.0, -2.0))
-        head = f"{n + 1:8}DYNAMIC"
-        text += block("ANALYSIS OUTPUT BLOCK", head, f"{t:12.5E}", "", "", place, speed)
-    return text
 
 
 def test_the_older_text_form_is_read(tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from lsprotocol import types as lsp
 from pygls import uris
+from pygls.exceptions import JsonRpcInvalidParams
 from pygls.lsp.server import LanguageServer
 
 from adamslite import __version__
@@ -35,6 +36,14 @@ def _is_beside(path: Path) -> bool:
     return path.is_file() and not leads_out(path)
 
 
+def _text_of(document: Document, uri: str) -> str:
+    """The text of a file that is not open."""
+    try:
+        return read_text(Path(document.file)).text
+    except (OSError, ValueError) as fault:  # no file at all, or no name of one
+        raise JsonRpcInvalidParams(f"{uri} is not open and cannot be read: {fault}") from None
+
+
 class Server(LanguageServer):
     """The texts that are open, and those that belong to them."""
 
@@ -50,7 +59,7 @@ class Server(LanguageServer):
             path = uris.to_fs_path(uri)
             document = Document(Path(path) if path else uri, place_of(uri))
         if open_one is None:
-            document.update(read_text(Path(document.file)).text, self._deck_of(uri, document))
+            document.update(_text_of(document, uri), self._deck_of(uri, document))
         elif version != open_one.version or document.place == "command":
             document.update(open_one.source, self._deck_of(uri, document))
         self.documents[uri] = (open_one.version if open_one else None, document)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import ceil
 from pathlib import Path
@@ -99,7 +99,7 @@ def beside(results: Results, curves: Sequence[Curve], reference: Reference, x: s
     except Mismatch:
         how = "linear"
         notes.append(f"interpolated linearly to the times of {name}")
-    sample, across = sampler(results, times, how), table[x][inside] if x in table else None
+    sample, across = _sampled(results, times, how, name), table[x][inside] if x in table else None
     found = {
         each: _compared(
             times, sample(results[each]), table[each][inside],
@@ -108,6 +108,15 @@ def beside(results: Results, curves: Sequence[Curve], reference: Reference, x: s
         for each in shared
     }  # fmt: skip
     return Beside(name, found, tuple(notes))
+
+
+def _sampled(
+    results: Results, times: np.ndarray, how: str | None, name: str
+) -> Callable[[np.ndarray], np.ndarray]:
+    try:
+        return sampler(results, times, how)
+    except Mismatch as fault:
+        raise UsageError(f"{name} cannot be drawn beside the results: {fault}") from None
 
 
 def _within(covered: np.ndarray, times: np.ndarray) -> np.ndarray:

@@ -275,10 +275,13 @@ def sampler(
         return lambda history: history[:0]
     if results.time.size == 0:
         raise Mismatch("the results hold no output time at all")
+    _need_numbers("results", results.time)
+    _need_numbers("reference", times)
     slack = max(SAME_TIME * max(float(np.ptp(times)), abs(float(times[-1]))), rounded)
+    if _same_times(results.time, times, 0.0 if interpolate else slack):
+        return lambda history: history
+    _need_order(results.time)
     _need_within(times, results.time, slack)
-    if interpolate:
-        _need_order(results.time)
     if interpolate == "linear":
         return lambda history: np.interp(times, results.time, history)
     if interpolate == "cubic":
@@ -286,13 +289,29 @@ def sampler(
     return _at_output_times(results.time, times, slack)
 
 
+def _need_numbers(whose: str, times: np.ndarray) -> None:
+    """A row without a time belongs to no other row."""
+    rows = np.flatnonzero(~np.isfinite(times))
+    if rows.size:
+        raise Mismatch(f"row {rows[0] + 1} of the {whose} has the time {times[rows[0]]:g}")
+
+
+def _same_times(covered: np.ndarray, times: np.ndarray, slack: float) -> bool:
+    """Whether each row belongs to the row in its place, also where a run went back or recorded one
+    time twice.
+    """
+    return covered.shape == times.shape and bool((np.abs(covered - times) <= slack).all())
+
+
 def _need_order(covered: np.ndarray) -> None:
-    """Nothing lies between output times where a run returned to an earlier state."""
+    """Where a run returned to an earlier state, a time has several rows and nothing lies between
+    two.
+    """
     back = np.flatnonzero(np.diff(covered) < 0.0)
     if back.size:
         raise Mismatch(
             f"the results go back from t = {covered[back[0]]:g} to {covered[back[0] + 1]:g}: "
-            "nothing can be interpolated; choose the same output step"
+            "nothing can be interpolated; choose the same output times"
         )
 
 
@@ -323,9 +342,14 @@ def _at_output_times(
 
 
 def _cubic(covered: np.ndarray, history: np.ndarray, times: np.ndarray) -> np.ndarray:
+    """All of a spline depends on each of its points: one that is not finite leaves no value."""
     from scipy.interpolate import CubicSpline
 
     last = np.append(np.diff(covered) > 0.0, True)  # of records at one time
+    if not np.isfinite(history[last]).all():
+        return np.full(times.shape, np.nan)
+    if last.sum() < 2:
+        return np.full(times.shape, history[-1])
     return CubicSpline(covered[last], history[last])(times)
 
 

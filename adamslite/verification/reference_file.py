@@ -38,6 +38,9 @@ from adamslite.verification.measures import ARRIVAL, KINDS, VALUE, Measure
 # The options of a measure, each followed by a number.
 _WORDS = ("at", "from", "to", "through", "smoothed")
 
+#: So many significant digits no double goes beyond.
+MOST_DIGITS = 17
+
 
 @dataclass(kw_only=True)
 class Reference:
@@ -173,8 +176,10 @@ def _number(text: str) -> float:
 
 
 def _digits(text: str) -> int:
-    if not text.isdecimal() or text == "0":
-        raise ValueError(f"'digits {text}': write how many significant digits are printed")
+    if not (text.isdecimal() and len(text) <= 2 and 0 < int(text) <= MOST_DIGITS):
+        raise ValueError(
+            f"'digits {text}': write how many significant digits are printed, 1 to {MOST_DIGITS}"
+        )
     return int(text)
 
 

@@ -85,7 +85,7 @@ def _read_xml(path: str | Path, data: bytes) -> Results:
         raise FormatError(f"{path} is damaged or cut off: {fault}") from None
     except FormatError as fault:
         raise FormatError(f"{path}: {fault}") from None
-    except (ValueError, zlib.error) as fault:
+    except (ValueError, LookupError, zlib.error) as fault:  # a code of letters that is none
         raise FormatError(f"{path} is damaged: {fault}") from None
 
 
