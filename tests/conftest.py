@@ -34,7 +34,8 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 TEXTUAL = {
     "test_accuracy_notes", "test_browser", "test_browser_plots", "test_bundle",
     "test_cable_messages", "test_chart", "test_commands", "test_compare",
-    "test_deck", "test_lexical", "test_manual", "test_messages", "test_pages", "test_reference",
+    "test_deck", "test_fuzz",
+    "test_lexical", "test_manual", "test_messages", "test_pages", "test_reference",
     "test_results", "test_statement", "test_style", "test_graph_to_llvm", "test_sweep_cluster",
 }  # fmt: skip
 

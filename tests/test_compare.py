@@ -151,3 +151,43 @@ def test_nothing_is_interpolated_where_a_run_went_back(how: str) -> None:
         compare(back, once, interpolate=how)
     twice = Results(time=np.sort(time), names=("x",), values=np.sort(time)[:, None] ** 2)
     assert compare(twice, once, Tolerance(abs=0.3), interpolate=how).inside
+
+
+def table(times: list[float], values: list[float]) -> Results:
+    return Results(time=np.array(times), names=("x",), values=np.array(values)[:, None])
+
+
+@pytest.mark.parametrize("how", [None, "linear", "cubic"])
+def test_rows_of_a_run_that_went_back_belong_to_those_in_their_places(how: str | None) -> None:
+    """Each of the two rows at t = 1 meets its own."""
+    times = [0.0, 1.0, 2.0, 1.0, 2.0]
+    run = table(times, [0.0, 1.0, 2.0, 7.0, 8.0])
+    assert compare(run, run, interpolate=how).inside
+    other = table(times, [0.0, 1.0, 2.0, 7.5, 8.0])
+    worst = compare(run, other, interpolate=how).worst
+    assert worst is not None and (worst.worst, worst.time) == (0.5, 1.0)
+    with pytest.raises(Mismatch, match="go back from t = 2 to 1.*the same output times"):
+        compare(run, table([0.0, 1.0], [0.0, 1.0]), interpolate=how)
+
+
+@pytest.mark.parametrize("how", [None, "linear", "cubic"])
+@pytest.mark.parametrize("time", [np.nan, np.inf])
+def test_a_row_without_a_time_is_compared_with_none(how: str | None, time: float) -> None:
+    whole, lacking = table([0.0, 1.0, 2.0], [1.0, 2.0, 3.0]), table([0.0, 1.0, time], [1.0, 2.0, 3])
+    with pytest.raises(Mismatch, match=f"row 3 of the reference has the time {time:g}"):
+        compare(whole, lacking, interpolate=how)
+    with pytest.raises(Mismatch, match=f"row 3 of the results has the time {time:g}"):
+        compare(lacking, whole, interpolate=how)
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf])
+def test_a_spline_through_what_is_not_a_number_is_inside_nothing(value: float) -> None:
+    run = table([0.0, 1.0, 2.0, 3.0], [0.0, 1.0, value, 3.0])
+    found = compare(run, table([0.5], [0.5]), Tolerance(abs=10.0), interpolate="cubic")
+    assert not found.inside
+
+
+def test_one_row_is_a_constant() -> None:
+    run = table([1.0, 1.0], [2.0, 3.0])
+    assert compare(run, table([1.0], [3.0]), interpolate="cubic").inside
+    assert not compare(run, table([1.0], [2.0]), interpolate="cubic").inside

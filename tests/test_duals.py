@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from threading import Event, Thread
 from types import SimpleNamespace
 from typing import Any
 
@@ -124,3 +125,21 @@ def test_slopes_of_measures_are_those_of_central_differences(function: str) -> N
         step = STEP * (np.arange(len(row)) == column)
         ahead, back = (values(model, moved(at, sign * step), gcon)[0] for sign in (-1, 1))
         assert row[column] == pytest.approx((ahead - back) / (2 * STEP), abs=1e-8)
+
+
+def test_threads_write_their_formulas_for_different_things() -> None:
+    """While one computes numbers another one makes kernels, as a server of editors does."""
+    inside, done = Event(), Event()
+
+    def other() -> None:
+        with with_numbers():
+            inside.set()
+            done.wait(10.0)
+
+    thread = Thread(target=other)
+    thread.start()
+    inside.wait(10.0)
+    made = formulas.power(graph.symbol("x"), 2.0)
+    done.set()
+    thread.join()
+    assert isinstance(made, graph.Node)

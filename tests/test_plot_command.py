@@ -124,3 +124,15 @@ def test_a_run_that_stops_early_is_plotted_up_to_there(
     Path("pole.adm").write_text(pole)
     assert main(["plot", "pole.adm", "POINT_MASS/2.x", "-o", "pole.svg"]) == 4
     assert "stopped early at t = 0." in Path("pole.svg").read_text()
+
+
+def test_a_reference_beside_results_that_went_back_is_one_sentence(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("back.csv").write_text("time,x\n0,1\n1,2\n2,3\n1,7\n2,8\n")
+    Path("once.csv").write_text("time,x\n0,1\n1,2\n2,3\n")
+    assert main(["plot", "back.csv", "x", "--against", "once.csv", "-o", "f.svg"]) == 2
+    assert "once.csv cannot be drawn beside the results: the results go back" in (
+        capsys.readouterr().err
+    )

@@ -25,6 +25,7 @@ from adamslite.equations.result_columns import column_names
 from adamslite.equations.unknown_names import placed
 from adamslite.errors import RunFailed, UsageError
 from adamslite.integrators.linalg.plan import TINY
+from adamslite.language.interfaces import key_of
 from adamslite.language.method import without_effect
 from adamslite.model.reduction import MERGED, kept_apart, left_off
 from adamslite.outputs.saved_files import SavedFiles
@@ -238,7 +239,7 @@ def _marker(deck: Deck, word: str) -> Key:
     """The id of a MARKER that a flag names."""
     from adamslite.language.likeness import did_you_mean
 
-    found = deck.find("MARKER", int(word) if word.isdigit() else word)
+    found = deck.find("MARKER", key_of(word))
     if found is None:
         hint = did_you_mean(word, deck.names.known("MARKER"))
         raise UsageError(f"--rm {word}: there is no MARKER/{word}" + (f"; {hint}" if hint else ""))

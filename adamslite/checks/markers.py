@@ -109,7 +109,7 @@ def floating_use(deck: Deck) -> Iterator[Diagnostic]:
         if force.jfloat is not None and force.jfloat not in floating:
             if deck.find(Marker, force.jfloat):
                 yield diagnose(force, "not-floating", "jfloat", key=force.jfloat)
-    for statement in deck.statements if floating else ():
+    for statement in deck.own if floating else ():  # delayed expressions are part of them
         for field, key in _uses(statement) if not statement.inert else ():
             if key in floating and field not in ("ifloat", "jfloat"):
                 word = statement.arguments[field].key

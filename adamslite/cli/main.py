@@ -245,7 +245,7 @@ def _run(argv: Sequence[str], own: bool) -> int:
     except SystemExit as leaving:
         return int(leaving.code or DONE)
     except KeyboardInterrupt:
-        return _interrupted()
+        return interrupted()
     if own:
         _show_controls()
     if getattr(args, "allow_path", None):
@@ -260,12 +260,13 @@ def _run(argv: Sequence[str], own: bool) -> int:
     except BrokenPipeError:
         return IO_FAILED
     except KeyboardInterrupt:
-        return _interrupted()
+        return interrupted()
     except Exception as fault:
         return _explain(fault)
 
 
-def _interrupted() -> int:
+def interrupted() -> int:
+    """Report that Ctrl-C has ended a command; return the exit code."""
     _tell("adamslite: interrupted")
     return STOPPED_EARLY
 

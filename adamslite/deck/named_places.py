@@ -9,6 +9,7 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from adamslite.language.diagnostics import Related
+from adamslite.language.interfaces import key_of
 from adamslite.language.messages import MESSAGES
 
 if TYPE_CHECKING:
@@ -39,7 +40,7 @@ def _named(deck: Deck, each: Diagnostic) -> Iterator[Related]:
     """Other statements whose label is in the message, or in its hint but for examples there."""
     examples = _examples(each.code)
     for kind, word in dict.fromkeys(LABEL.findall(f"{each.message} {each.hint}")):
-        key: Key = int(word) if word.isdigit() else word.rstrip(".").upper()
+        key: Key = key_of(word.rstrip(".").upper())
         start = deck.names.ids.get(kind, {}).get(key)
         if start is None or (kind, word) in examples or _is_own(deck, kind, key, each.span):
             continue

@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from adamslite.deck.redefinition import Redefinition
+from adamslite.language.interfaces import key_of
 from adamslite.language.messages import compose
 from adamslite.language.messages.fixes import NEEDLESS, left_out
 from adamslite.language.spelling import spelled
@@ -98,7 +99,7 @@ def _inside(spans: Spans, field: str, word: str) -> Span | None:
 def _is_word(token: Lexeme, word: str) -> bool:
     kind, text, _ = token
     if kind == "NUMBER":
-        return text.isdigit() and str(int(text)) == word
+        return text.isdecimal() and key_of(text) == key_of(word)
     return kind == "NAME" and spelled(text).upper() == word
 
 

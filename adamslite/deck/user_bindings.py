@@ -30,6 +30,7 @@ from typing import TYPE_CHECKING, Any
 
 from adamslite.deck.names import to_number
 from adamslite.errors import UsageError
+from adamslite.language.interfaces import key_of
 from adamslite.language.likeness import did_you_mean
 from adamslite.language.routines import short_name
 from adamslite.language.statement import STATEMENTS
@@ -270,4 +271,4 @@ def _loaded(entry: EntryPoint) -> Callable[..., Any]:
 
 
 def _key(word: str) -> Key:
-    return int(word) if word.isdigit() else word
+    return key_of(word)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from adamslite.deck.deck import Deck
 from adamslite.elements.graphics import Graphics
 from adamslite.elements.marker import Marker
-from adamslite.language.interfaces import Key
+from adamslite.language.interfaces import Key, key_of
 
 COMMENT = re.compile(r"[ \t]*!.*?\badamslite:[ \t]*cable\b[ \t]*(.*)", re.IGNORECASE)
 RANGE = re.compile(r"(-?)(\w+/)(\d+)\.\.(\d+)(.*)")
@@ -54,7 +54,7 @@ def _after_statement(line: str, own: bool) -> str:
 def _read(deck: Deck, found: CableComment, item: str) -> None:
     word, *values = item.split()
     if word.lower() == "wheel" and len(values) == 2 and _is_number(values[1]):
-        named: Key = int(values[0]) if values[0].isdigit() else values[0]
+        named: Key = key_of(values[0])
         marker = deck.find(Marker, named)
         if marker is not None and float(values[1]):
             found.wheels[marker.key] = float(values[1])

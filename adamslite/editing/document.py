@@ -17,7 +17,7 @@ from adamslite.editing.outline import Written, head_end, statements
 from adamslite.editing.rereading import Memory, Notebook, Rereading, Use
 from adamslite.gc_pause import without_collection
 from adamslite.language.diagnostics import DeckError, Diagnostic, Source, Span, sort_by_place
-from adamslite.language.interfaces import Key
+from adamslite.language.interfaces import Key, key_of
 from adamslite.language.messages.ignoring import without_ignored
 from adamslite.language.spelling import spelled
 from adamslite.language.statement import Statement
@@ -250,6 +250,6 @@ def _switched(command: object, source: Source) -> Iterator[Use]:
     for stretch in scan(source.text[:end], start):
         for token in stretch:
             word = token[1].upper()
-            key: Key = int(word) if word.isdigit() else word
+            key: Key = key_of(word)
             if key in command.ids:
                 yield Use(command.kind, key, token[2], end_of(token))

@@ -11,6 +11,9 @@ from adamslite.language.diagnostics import Span
 UNITS = {"utf-8": ("utf-8", 1), "utf-16": ("utf-16-le", 2)}
 """How columns are counted: the bytes of an encoding, divided."""
 
+HALVES = "surrogatepass"
+"""Half of a pair of surrogates, which JSON can hold, counts as a letter."""
+
 
 class Positions:
     """Places of one text.
@@ -32,7 +35,7 @@ class Positions:
         column = position.character
         if not line.isascii() and self.encoding in UNITS:
             encoding, size = UNITS[self.encoding]
-            data = line.encode(encoding)[: column * size]
+            data = line.encode(encoding, HALVES)[: column * size]
             column = len(data.decode(encoding, "ignore"))
         return self.content.offset(position.line + 1, column + 1)
 
@@ -42,7 +45,7 @@ class Positions:
         units = column - 1
         if not before.isascii() and self.encoding in UNITS:
             encoding, size = UNITS[self.encoding]
-            units = len(before.encode(encoding)) // size
+            units = len(before.encode(encoding, HALVES)) // size
         return lsp.Position(line - 1, units)
 
     def range_of(self, span: Span) -> lsp.Range:

@@ -8,7 +8,7 @@ from adamslite.deck.names import RESERVED
 from adamslite.editing.document import Content
 from adamslite.editing.rereading import Use
 from adamslite.errors import UsageError
-from adamslite.language.interfaces import Key
+from adamslite.language.interfaces import Key, key_of
 from adamslite.language.spelling import spelled
 from adamslite.reading.argument_values import to_id
 from adamslite.syntax.tokens import scan
@@ -61,7 +61,7 @@ def _own(text: Content, symbol: Use) -> Iterator[Use]:
 
 def _canonical(word: str) -> Key:
     word = spelled(word.strip() or " ").upper()
-    return int(word) if word.isdigit() else word
+    return key_of(word)
 
 
 def _need_readable(text: Content) -> None:

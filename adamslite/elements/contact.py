@@ -168,7 +168,7 @@ class Contact(Wrench, Statement):
 
     def _points(self, find: Callable[[str, Key], Any]) -> list[ContactPoint]:
         """Its points of contact; ``find`` gives a statement by keyword and id."""
-        if self.missing:
+        if not (self.igeom and self.jgeom and self.law in self.laws) or self.missing:
             return []
         law = self._law()
         found = enumerate(self._meetings(find), 1)
@@ -189,7 +189,7 @@ class Contact(Wrench, Statement):
     @property
     def missing(self) -> tuple[str, ...]:
         """Fields that its laws need and that are not given."""
-        needed = self.laws[self.law] + self.rubbing * self.rubs
+        needed = self.laws.get(self.law, ()) + self.rubbing * self.rubs
         return tuple(field for field in needed if getattr(self, field) is None)
 
     def _law(self) -> Law:

@@ -60,6 +60,8 @@ class Tfsiso(LinearSystem):
 
     def matrices(self, deck: Lookup) -> Matrices | None:
         """The state equations above."""
+        if not (self.numerator and self.denominator):
+            return None  # of a statement with mistakes
         *a, highest = self.denominator
         n = len(a)
         if n == 0 or highest == 0.0 or degree(self.numerator) > n:

@@ -11,7 +11,16 @@ if TYPE_CHECKING:  # the modules that read a deck do without numpy
 
 Key: TypeAlias = int | str
 """An id as references hold it: a number, or a name in capitals."""
+ID_DIGITS = 18
+"""Digits of an id that is a number: any such number fits into 64 bits."""
 T = TypeVar("T")
+
+
+def key_of(word: str) -> Key:
+    """The id that a word is: a number if it has only decimal digits, and not too many; else the
+    word itself.
+    """
+    return int(word) if word.isdecimal() and len(word) <= ID_DIGITS else word
 
 
 class Lookup(Protocol):

@@ -25,6 +25,7 @@ import numpy as np
 
 import adamslite
 from adamslite.errors import UsageError
+from adamslite.language.interfaces import key_of
 from adamslite.outputs.adams.xrf_layout import (
     ALL_DIGITS,
     COMPONENTS_LEFT_OUT,
@@ -126,7 +127,7 @@ def _entities(
         keyword, _, id = label.partition("/")
         if keyword in out:
             continue
-        statement = deck.find(keyword, int(id) if id.isdigit() else id) if id else None
+        statement = deck.find(keyword, key_of(id)) if id else None
         name = getattr(statement, "name", None) or f"{keyword}_{id}"
         body = keyword in ("PART", "POINT_MASS")
         if keyword == "REQUEST":
@@ -159,7 +160,7 @@ def _words(
 
 def _request_word(component: str, request: Any) -> str:
     """The name of F1 ... F8; CNAMES of the deck leaves out those without one."""
-    number = int(component[1:]) - 1 if component[1:].isdigit() else len(REQUEST_NAMES)
+    number = int(component[1:]) - 1 if component[1:].isdecimal() else len(REQUEST_NAMES)
     named = request.cnames if request else ()
     if named:
         return named[number] if number < len(named) else ""

@@ -10,7 +10,7 @@ from typing import NoReturn
 from adamslite.deck.names import Names, to_number
 from adamslite.language.abbreviations import match
 from adamslite.language.expression import Node
-from adamslite.language.interfaces import Key
+from adamslite.language.interfaces import ID_DIGITS, Key
 from adamslite.language.messages import Log
 from adamslite.language.routines import ARGUMENT as ROUTINE_ARGUMENT
 from adamslite.language.routines import is_user_call
@@ -21,7 +21,6 @@ from adamslite.reading.resolver import Resolver
 from adamslite.syntax.tokens import CLOSES, Lexeme, end_of
 
 GROUND = "GROUND"
-_LONGEST_ID = 18
 
 
 class Refused(Exception):
@@ -66,7 +65,7 @@ def to_id(tokens: list[Lexeme]) -> Key | None:
         return None
     kind, text, _ = tokens[0]
     if kind == "NUMBER":
-        short = len(tokens) == 1 and text.isdigit() and len(text) <= _LONGEST_ID
+        short = len(tokens) == 1 and text.isdecimal() and len(text) <= ID_DIGITS
         return int(text) if short else None
     if kind != "NAME":
         return None

@@ -12,15 +12,12 @@ from adamslite import functions  # noqa: F401  registers the functions
 from adamslite.deck.names import RESERVED, Names
 from adamslite.language.expression import Call, Node, Num, Ref
 from adamslite.language.function import FUNCTIONS, Function
-from adamslite.language.interfaces import Key
+from adamslite.language.interfaces import ID_DIGITS, Key
 from adamslite.language.messages import Log
 from adamslite.language.not_supported import FUNCTIONS as PLANNED
 from adamslite.language.spelling import spelled
 from adamslite.syntax.forms import Tree
 from adamslite.syntax.tokens import Lexeme, end_of
-
-# Any number of so many digits fits into 64 bits.
-ID_DIGITS = 18
 
 
 class Unresolved(Exception):
@@ -71,7 +68,7 @@ class ExpressionNames:
     def _reference(self, function: Function, kind: str, branch: Tree) -> Ref:
         rule, first = branch[0], branch[1]
         text = self.tokens[first][1]
-        if rule == "number" and text.isdigit() and len(text) <= ID_DIGITS:
+        if rule == "number" and text.isdecimal() and len(text) <= ID_DIGITS:
             key: Key = int(text)
             if key == 0 and kind == "MARKER":
                 return Ref(kind, 0)

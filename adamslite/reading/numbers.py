@@ -31,6 +31,7 @@ from adamslite.errors import UsageError
 from adamslite.language.abbreviations import match
 from adamslite.language.diagnostics import DeckError, Diagnostic, Source
 from adamslite.language.expression import Node, Num
+from adamslite.language.interfaces import key_of
 from adamslite.language.likeness import did_you_mean
 from adamslite.language.statement import STATEMENTS, Argument, Statement
 from adamslite.language.traced import Traced
@@ -176,7 +177,7 @@ class Numbers:
     def _hint(self, name: str) -> str:
         """What may have been meant."""
         several = [each for each in self.named if each.startswith(f"{name.upper()}[")]
-        variable = self.deck.find("VARIABLE", int(name) if name.isdigit() else name)
+        variable = self.deck.find("VARIABLE", key_of(name))
         if not several and variable is not None:
             start = f"{variable.label}.FUNCTION".upper()
             several = [each for each in self.named if each.startswith(start)]

@@ -18,9 +18,9 @@ from adamslite.functions.vectors import VECTORS
 from adamslite.language.diagnostics import Source, Spans, packed
 from adamslite.language.expression import NEGATE, Call, Node, Num, Op, Ref, names_called
 from adamslite.language.function import FUNCTIONS
+from adamslite.language.interfaces import ID_DIGITS
 from adamslite.language.routines import USER
 from adamslite.reading.argument_grouping import Pieces, Read
-from adamslite.reading.expression_names import ID_DIGITS
 from adamslite.syntax.forms import Fault, Tree, expression_form
 from adamslite.syntax.syntax_errors import Waiting
 from adamslite.syntax.tokens import OPERATORS, Lexeme
@@ -157,7 +157,7 @@ class Patterns:
 
     def id(self, kind: str, text: str) -> int:
         """An id above zero, of a statement that exists."""
-        key = int(text) if text.isdigit() and len(text) <= ID_DIGITS else 0
+        key = int(text) if text.isdecimal() and len(text) <= ID_DIGITS else 0
         if not key or key not in self.ids.get(kind, ()):
             raise Unfit
         return key

@@ -18,6 +18,7 @@ from adamslite.deck.user_bindings import INSTALLED, Binding, Bindings, is_instal
 from adamslite.elements.bases.traced_curve import line, traced
 from adamslite.language.diagnostics import NOWHERE, Diagnostic, Source
 from adamslite.language.expression import TIME, Call, Node, Num, to_text
+from adamslite.language.interfaces import key_of
 from adamslite.language.likeness import did_you_mean
 from adamslite.language.messages import Log, compose
 from adamslite.language.routines import (
@@ -248,7 +249,7 @@ class RoutineBinder:
     def _mistaken(self) -> Iterator[Diagnostic]:
         """Bindings of statements that do not exist; commands have been read when they are."""
         for kind, word in self.given.statements if self.deck is None else ():
-            key: int | str = int(word) if word.isdigit() else word
+            key: int | str = key_of(word)
             if self.names.find(kind, key) is None:
                 hint = did_you_mean(word, self.names.known(kind))
                 yield _about(f"{kind}/{word}", f"there is no {kind}/{word}", hint)
@@ -263,7 +264,7 @@ def unused_bindings(deck: Deck) -> Iterator[Diagnostic]:
             known = {short_name(each).upper() for each in given.called} | given.called
             hint = did_you_mean(name, known)
             yield _about(name, "no statement calls this routine", hint)
-        elif deck.names.find(kind, int(word) if word.isdigit() else word) is not None:
+        elif deck.names.find(kind, key_of(word)) is not None:
             yield _about(name, f"{name} has no FUNCTION=USER(...)", "")
 
 

@@ -43,7 +43,7 @@ def adams_options(deck: Deck, commands: Iterable[Command] = ()) -> AdamsOptions:
     return AdamsOptions(
         requests="REQSAVE" in found["OUTPUT"],
         results="XRF" in words,
-        decimals=int(places) if places.isdigit() else ALL_DECIMALS,
+        decimals=int(places) if places.isdecimal() else ALL_DECIMALS,
         without=frozenset(word for word in words if word.startswith("NO")),
         comment=words.get("COMMENT", ""),
     )

@@ -25,11 +25,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from adamslite.language.interfaces import key_of
 from adamslite.model.attitude_angles import rotations_313
 from adamslite.results.part_frames import (
     ACCELERATION,
+    ALPHA,
     ANGLES,
     OF_POINT,
+    OMEGA,
     PLACE,
     SPEED,
     markers_in_parts,
@@ -158,7 +161,7 @@ def _directed(deck: Deck, label: str) -> Any:
     keyword, _, id = label.partition("/")
     if keyword not in DIRECTED:
         return None
-    return deck.find(keyword, int(id) if id.isdigit() else id)
+    return deck.find(keyword, key_of(id))
 
 
 def from_adams(results: Results, deck: Deck) -> Results:
@@ -198,20 +201,30 @@ def _with_centre(
     plain = {name.removeprefix(BCS): each for name, each in columns.items()}
     if not any(name.startswith(BCS) for name in columns):
         return plain
-    needed = {
-        **dict.fromkeys(PLACE, ("psi",)), **dict.fromkeys(SPEED, ("psi", "wx")),
-        **dict.fromkeys(ACCELERATION, ("psi", "wx", "alx")),
-    }  # fmt: skip
-    shifted = marker.shifted and label.startswith("PART/")
+    needed = _needed(marker, label.startswith("PART/"))
     kept = {
-        name for name in plain
-        if shifted and any(each not in plain for each in needed.get(name, ()))
+        name for name in plain if any(each not in plain for each in needed.get(name, ()))
     }  # fmt: skip
     moved = of_centre({name: plain[name] for name in plain if name not in kept}, marker)
     return {
         (BCS + name if name in kept else name): plain[name] if name in kept else moved[name]
         for name in plain
     }
+
+
+def _needed(marker: MarkerInPart, turns: bool) -> dict[str, tuple[str, ...]]:
+    """The components that the motion of a centre of mass takes, by its own; a point mass does not
+    turn.
+    """
+    groups: dict[tuple[str, ...], tuple[str, ...]] = {}
+    if turns and (marker.turned or marker.shifted):
+        groups[ANGLES] = ANGLES
+    if marker.shifted:
+        groups[PLACE] = PLACE + ANGLES * turns
+    if turns and marker.shifted:
+        groups[SPEED] = SPEED + ANGLES + OMEGA
+        groups[ACCELERATION] = ACCELERATION + ANGLES + OMEGA + ALPHA
+    return {name: needed for group, needed in groups.items() for name in group}
 
 
 def _along(
@@ -228,7 +241,7 @@ def _along(
 def _by_number(columns: dict[str, np.ndarray], deck: Deck, label: str) -> dict[str, np.ndarray]:
     """Components by the names that CNAMES of the deck gives them."""
     id = label.partition("/")[2]
-    request = deck.find("REQUEST", int(id) if id.isdigit() else id)
+    request = deck.find("REQUEST", key_of(id))
     named = request.cnames if request else ()
     number = {word.lower(): f"F{n}" for n, word in enumerate(named, start=1) if word}
     return {number.get(name.lower(), name): each for name, each in columns.items()}

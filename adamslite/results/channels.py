@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from adamslite.language.interfaces import key_of
 from adamslite.language.units import SYMBOLS
 from adamslite.results.quantities import ANGLE, FORCE, LENGTH, TIME, TORQUE, UNKNOWN, quantity_of
 
@@ -93,7 +94,7 @@ def describe(name: str, units: dict[str, str], deck: Deck | None = None) -> Chan
 def statement_of(label: str, deck: Deck) -> Any:
     """The statement that ``PART/2`` means; None where the deck has none."""
     keyword, _, id = label.partition("/")
-    return deck.find(keyword, int(id) if id.isdigit() else id)
+    return deck.find(keyword, key_of(id))
 
 
 def _quantity(keyword: str, component: str, found: Any, deck: Deck | None) -> tuple[str, str]:
@@ -131,13 +132,13 @@ def _expressed(found: Any, component: str, deck: Deck) -> tuple[str, str]:
 def _own_unit(found: Any, component: str) -> str:
     """What CUNITS of a REQUEST names for a component."""
     named = found.cunits if _is_request(found) else ()
-    number = int(component[1:]) if component[1:].isdigit() else 0
+    number = int(component[1:]) if component[1:].isdecimal() else 0
     return named[number - 1] if 0 < number <= len(named) else ""
 
 
 def _heading(found: Any, component: str) -> str:
     """What CLABELS, CNAMES or TITLE (eight headings with colons between) of a REQUEST name it."""
-    if not _is_request(found) or not component[1:].isdigit():
+    if not _is_request(found) or not component[1:].isdecimal():
         return ""
     at = int(component[1:]) - 1
     for named in (found.clabels, found.cnames, (found.title or "").split(":")):

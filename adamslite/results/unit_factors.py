@@ -58,7 +58,7 @@ def _size(unit: str) -> Size | None:
     for text, sign in ((top, 1), (bottom, -1)):
         for word in text.split():
             symbol, _, exponent = word.partition("^")
-            if symbol not in SIZES or (exponent and not exponent.isdigit()):
+            if symbol not in SIZES or (exponent and not exponent.isdecimal()):
                 return None
             kind, each = SIZES[symbol]
             power = sign * int(exponent or 1)

@@ -10,13 +10,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from threading import local
 from typing import Any
 
 from adamslite.symbolic.types import Expr
 
 
-class _Algebra:
-    """The functions of the module that formulas are written for; fetched once each."""
+class _Algebra(local):
+    """The functions of the module that formulas are written for; fetched once each.
+
+    Each thread has its own: while one computes numbers, another one may make kernels.
+    """
 
     def __getattr__(self, name: str) -> Any:
         from adamslite.symbolic import algebra

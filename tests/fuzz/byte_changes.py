@@ -26,9 +26,11 @@ def _place(random: Random, data: bytes) -> int:
 def other_bit(random: Random, data: bytes) -> bytes:
     """With one bit inverted."""
     at = _place(random, data)
-    return data[:at] + bytes(each ^ 1 << random.randrange(8) for each in data[at : at + 1]) + data[
-        at + 1 :
-    ]
+    return (
+        data[:at]
+        + bytes(each ^ 1 << random.randrange(8) for each in data[at : at + 1])
+        + data[at + 1 :]
+    )
 
 
 def other_byte(random: Random, data: bytes) -> bytes:

@@ -20,7 +20,12 @@ from adamslite.resources import find
 
 #: Texts that are drawn together: beginning takes longer than one.
 DRAWN = 200
-HEAD = "a deck\nPART/1, GROUND\nMARKER/1, PART=1\nPART/2, MASS=1, CM=2, IP=1,1,1\nMARKER/2, PART=2\n"
+HEAD = """a deck
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS=1, CM=2, IP=1,1,1
+MARKER/2, PART=2
+"""
 KEYWORDS = sorted(STATEMENTS)
 KEYS = sorted({key for each in STATEMENTS.values() for key in each.arguments})
 #: What the grammar ignores, in one form.
@@ -63,7 +68,8 @@ def texts() -> st.SearchStrategy[str]:
     forces = expressions().map(
         lambda text: f"SFORCE/1, TRANSLATION, I=2, J=1, FUNCTION={text}\nEND\n"
     )
-    some = st.lists(st.one_of(statements().map(lambda text: f"{text}\n"), formulas, forces), max_size=4)
+    others = statements().map(lambda text: f"{text}\n")
+    some = st.lists(st.one_of(others, formulas, forces), max_size=4)
     return st.one_of(some.map(lambda each: HEAD + "".join(each)), decks())
 
 

@@ -1,12 +1,14 @@
 """Guarded child processes that meet cases, and what becomes of them.
 
 A child meets many cases and is replaced when it dies, and after ``LIFE`` of them.  Of each case it
-measures CPU and the peak of its memory. The kernel ends it when one case takes more than ``MOST_CPU``
-or asks for more than ``MOST_MEMORY``; its parent ends it when nothing comes for ``SILENCE``.
+measures CPU and the peak of its memory. The kernel ends it when one case takes more than
+``MOST_CPU`` or asks for more than ``MOST_MEMORY``; its parent ends it when nothing comes for
+``SILENCE``.
 """
 
 from __future__ import annotations
 
+import faulthandler
 import os
 import resource
 import signal
@@ -152,6 +154,7 @@ def verdicts(kind: str, seed: int, numbers: range, jobs: int) -> Iterator[tuple[
 def _work(kind: str, seed: int, pipe: Connection, of_parent: Connection) -> None:
     """Meet cases until the parent has no more, or is gone."""
     of_parent.close()
+    faulthandler.disable()
     resource.setrlimit(resource.RLIMIT_DATA, (MOST_MEMORY, MOST_MEMORY))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     sink = os.open(os.devnull, os.O_WRONLY)

@@ -10,8 +10,6 @@ import asyncio
 import json
 import logging
 import traceback
-
-
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -34,10 +32,9 @@ def session(random: Random) -> Case:
     decks = material.decks()
     texts = {uri: text_changes.changed(random, decks.any(random), decks.texts) for uri in URIS}
     messages = [_message(1, "initialize", INITIALIZE), _message(None, "initialized", {})]
-    uri = URIS[0]
-    messages.append(_opened(uri, texts[uri]))
+    messages.append(_opened(URIS[0], texts[URIS[0]]))
     for number in range(2, 2 + random.randint(5, 20)):
-        uri = random.choice(URIS) if random.random() < 0.2 else uri
+        uri = random.choice(URIS) if random.random() < 0.2 else URIS[0]
         messages.append(_any_message(random, number, uri, texts))
     lines = (json.dumps(each) for each in messages)
     return Case({MESSAGES: "".join(f"{line}\n" for line in lines).encode()})
@@ -71,7 +68,8 @@ def _any_message(random: Random, number: int, uri: str, texts: dict[str, str]) -
         found = _message(number, f"textDocument/{method}", params)
     else:
         params = {"textDocument": {"uri": uri}, "range": _range(random, texts[uri]),
-                  "options": {"tabSize": 4, "insertSpaces": True}, "context": {"diagnostics": []}}  # fmt: skip
+                  "options": {"tabSize": 4, "insertSpaces": True},
+                  "context": {"diagnostics": []}}  # fmt: skip
         found = _message(number, f"textDocument/{random.choice(OF)}", params)
     return _damaged(random, found) if random.random() < 0.1 else found
 
@@ -158,7 +156,9 @@ async def _served(messages: list[dict[str, Any]], writer: _Writer) -> None:
     handlers.PAUSE = handlers.REST = 0.0
     server = Server()
     for method, handler in handlers.FEATURES.items():
-        server.feature(method, handlers.TRIGGERS if handler is handlers.completed else None)(handler)
+        server.feature(method, handlers.TRIGGERS if handler is handlers.completed else None)(
+            handler
+        )
     faults: list[Exception] = []
     server.report_server_error = lambda fault, source: faults.append(fault)
     server.protocol.set_writer(writer, include_headers=False)

@@ -55,7 +55,9 @@ def commanded() -> tuple[tuple[str, str], ...]:
     """Decks with command files beside them."""
     pairs = ((path, path.with_suffix(".acf")) for path in _files(".adm"))
     texts = [
-        (deck.read_text("latin-1"), acf.read_text("latin-1")) for deck, acf in pairs if acf.is_file()
+        (deck.read_text("latin-1"), acf.read_text("latin-1"))
+        for deck, acf in pairs
+        if acf.is_file()
     ]
     return tuple(each for each in texts if sum(map(len, each)) < LONGEST / 4)
 

@@ -10,7 +10,8 @@ WORD = re.compile(r"[A-Za-z_]\w*")
 NUMBER = re.compile(r"(?<![\w.])\d+(?:\.\d*)?(?:[EeDd][-+]?\d+)?")
 NUMBERS = (
     "0", "-1", "1", "2", "3", "1E-300", "1E300", "1E400", "9" * 30, "9" * 400, "0.5", "-0", "1D",
-    "90D", "1E5D", "nan", "inf", "1e999999999", "0x10", "1_000", "2147483648", "-9223372036854775809",
+    "90D", "1E5D", "nan", "inf", "1e999999999", "0x10", "1_000", "2147483648",
+    "-9223372036854775809",
 )  # fmt: skip
 PIECES = (
     "", ",", ",,", "=", "/", "\\", "(", ")", "[", "]", ":", ";", "!", "&", "\n", "\n, ", "\t", "\0",
@@ -18,6 +19,10 @@ PIECES = (
     "MAX(", "VARVAL(1)", "TIME", "1/0", "0/0", "USER(1)", "FUNCTION=", "\nEND\n", "\\Delta ",
     "\r\n", "\r", "\x1b[2J", "\u2028", "\ufeff", "\U0001f600", "\ud800", "\xa0", "{", "}", "<", ">",
     "%s", "{0}", "../", "/dev/null", "FILE=", "~", "$HOME", "`", "\x85", "²", "٣",
+)  # fmt: skip
+BRACKETS = (
+    ("(", ")"), ("[", "]"), ("SIN(", ")"), ("-(", ")"), ("2**(", ")"), ("MAX(1,", ")"),
+    ("IF(TIME:1,2,", ")"), ("+", ""), ("-", ""),
 )  # fmt: skip
 #: Characters that a change may add: reading takes its time for all of them.
 GROWTH = 4000
@@ -132,10 +137,8 @@ def foreign_lines(random: Random, text: str, others: Sequence[str]) -> str:
 
 def nest(random: Random, text: str, others: Sequence[str]) -> str:
     """With a number or word deep inside brackets or calls."""
-    opened, closed = random.choice([("(", ")"), ("[", "]"), ("SIN(", ")"), ("-(", ")"), ("2**(", ")"),
-                                    ("MAX(1,", ")"), ("IF(TIME:1,2,", ")"), ("+", ""), ("-", "")])  # fmt: skip
-    depth = random.choice([2, 10, 100, 1000])
-    depth = min(depth, GROWTH // len(opened + closed))
+    opened, closed = random.choice(BRACKETS)
+    depth = min(random.choice([2, 10, 100, 1000]), GROWTH // len(opened + closed))
     pattern = random.choice([WORD, NUMBER])
     return _replaced(random, text, pattern, lambda word: opened * depth + word + closed * depth)
 

@@ -16,6 +16,7 @@ import numpy as np
 
 from adamslite.analyses.clock.changes import NOISE, around_changes
 from adamslite.analyses.clock.clock import Clock
+from adamslite.analyses.clock.enclosures import enclose
 from adamslite.integrators.contract import CLOCK, LEAST_STEP
 from adamslite.symbolic.guards import FLOOR, STRICT
 
@@ -31,6 +32,8 @@ if TYPE_CHECKING:
 SAME, ROUND_OFF = 1e-13, 1e-16
 # A guard that jumps is not round-off beside a change: this share of its largest value is.
 LOUD = 1e-9
+# So many whole numbers floors may pass in a run: their changes have to fit into memory.
+MOST = 2**19
 # Where a guard is sampled between two changes.
 WITHIN = np.array([0.25, 0.5, 0.75])
 
@@ -61,7 +64,9 @@ def merged(found: np.ndarray, times: np.ndarray) -> np.ndarray:
     if (found == end).all():
         return np.array([end])
     same = same_time(start, end)
-    near = times[np.abs(times[:, None] - found).argmin(axis=0)]
+    after = np.searchsorted(times, found).clip(1, len(times) - 1)
+    low, high = times[after - 1], times[after]
+    near = np.where(found - low <= high - found, low, high)
     found = np.where(np.abs(near - found) <= same, near, found)
     inside = np.sort(found[(found > start + same) & (found < end - same)])
     return np.append(inside[np.diff(inside, prepend=-np.inf) > same], end)
@@ -78,13 +83,20 @@ def _grid(
     """Times so dense that every guard changes once at most between two of them, and the
     statements of which that could not be reached.
     """
-    times, overfull = [np.array([start, end])], []
+    times, overfull, passed = [np.array([start, end])], [], 0.0
     for floor in (False, True):
         for program, statement in (floors if floor else guards).items():
             found = around_changes(program, start, end, floor)
             times.append(found.times)
-            overfull += [] if found.whole else [statement]
+            passed += _passed(program, found.times) if floor else 0.0
+            overfull += [] if found.whole and passed <= MOST else [statement]
     return np.unique(np.concatenate(times)), overfull
+
+
+def _passed(program: Program, times: np.ndarray) -> float:
+    """How many whole numbers a floor passes, which is monotonic between the times."""
+    values = np.floor(enclose(program, times, times)[0])
+    return float(np.abs(np.diff(values[np.isfinite(values)])).sum())
 
 
 def _changes(system: System, grid: np.ndarray) -> np.ndarray:
@@ -99,6 +111,8 @@ def _changes(system: System, grid: np.ndarray) -> np.ndarray:
         fine |= (middle <= below) | (middle >= above)
         found.append(above[changed & fine])
         open_ = changed & ~fine
+        if np.count_nonzero(open_) > MOST + len(grid):  # the rest is reported as too many
+            break
         below, above, left, right, middle = (x[open_] for x in (below, above, left, right, middle))
         inner = _branches(system, middle)
         below, above = np.concatenate([below, middle]), np.concatenate([middle, above])

@@ -287,6 +287,19 @@ MESSAGES: dict[str, Message] = SURROUNDINGS | {
 }
 
 
+#: Letters of a value that a message shows.
+LONGEST = 60
+
+
+def quoted(value: object) -> str:
+    """A value as a message shows it, its beginning where it is long."""
+    try:
+        text = repr(value)
+    except ValueError:  # of thousands of digits Python makes no text
+        return "a number of too many digits"
+    return text if len(text) <= LONGEST else f"{text[:LONGEST]}..."
+
+
 class Faults:
     """Collects the diagnostics of one description."""
 

@@ -7,7 +7,7 @@ fall = "d1 s1 anchor"   the names of the stations in the order in which the cabl
 
 from collections import Counter
 
-from adamslite.cables.description.messages import Faults
+from adamslite.cables.description.messages import Faults, quoted
 from adamslite.cables.description.toml_places import Path
 from adamslite.cables.description.vocabulary import Toml
 from adamslite.cables.vectors import add
@@ -76,7 +76,7 @@ def _named(faults: Faults, tables: list[Toml], fall: object, path: Path) -> list
     """Numbers of the tables that a fall goes to, without words that name none."""
     if not isinstance(fall, str) or not fall.split():
         expected = "the names of stations in one text"
-        faults.add("wrong-value", path, word="fall", expected=expected, text=repr(fall))
+        faults.add("wrong-value", path, word="fall", expected=expected, text=quoted(fall))
         return []
     names = [each.get("name") or "" for each in tables]
     known = ", ".join(each for each in names if each) or "missing: name = ... in [[route]]"

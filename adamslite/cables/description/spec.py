@@ -22,7 +22,7 @@ from adamslite.cables.description.keys import (
     Rules,
     Takes,
 )
-from adamslite.cables.description.messages import LARGEST, SMALLEST, Faults
+from adamslite.cables.description.messages import LARGEST, SMALLEST, Faults, quoted
 from adamslite.cables.description.reeving import along_several, along_the_cable
 from adamslite.cables.description.route import check_route
 from adamslite.cables.description.toml_places import Path, Places
@@ -66,11 +66,7 @@ def read_scene(text: str, file: str = "<text>") -> Description:
     """
     places = Places(Source(text, file))
     faults = Faults(places)
-    try:
-        data = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as fault:
-        faults.add("toml", _line_of(str(fault), places), why=str(fault))
-        raise DeckError(faults.found) from None
+    data = _parsed(text, places, faults)
     given = data.get("cable")
     if _is_several(data):
         return _several(faults, data)
@@ -90,6 +86,18 @@ def read_scene(text: str, file: str = "<text>") -> Description:
     model = _table(faults, _part(faults, data, "model"), MODEL, ("model",))
     _stop(faults, readable)
     return Description([(_spec(common, cable, model, route), faults)], (), faults)
+
+
+def _parsed(text: str, places: Places, faults: Faults) -> Toml:
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as fault:
+        faults.add("toml", _line_of(str(fault), places), why=str(fault))
+    except RecursionError:
+        faults.add("toml", (), why="arrays or tables within one another, too many of them")
+    except ValueError:  # of thousands of digits Python makes no number
+        faults.add("toml", (), why="a whole number with too many digits")
+    raise DeckError(faults.found)
 
 
 def _is_several(data: Toml) -> bool:
@@ -139,7 +147,7 @@ def _several(faults: Faults, data: Toml) -> Description:
 def _loads(faults: Faults, tables: object) -> tuple[Load, ...]:
     if not isinstance(tables, list) or not all(isinstance(each, dict) for each in tables):
         faults.add("wrong-value", ("load",), word="load", expected="tables [[load]]",
-                   text=repr(tables))  # fmt: skip
+                   text=quoted(tables))  # fmt: skip
         return ()
     read = [_table(faults, each, LOAD, ("load", k)) for k, each in enumerate(tables)]
     return tuple(Load(**each) for each in read if len(each) == len(LOAD))
@@ -171,7 +179,7 @@ def _line_of(message: str, places: Places) -> Path:
     """The key a message of tomllib, "... (at line 3, column 1)", is about, as far as known."""
     _, _, rest = message.partition("at line ")
     number = rest.split(",")[0]
-    if number.isdigit():
+    if number.isdecimal():
         for path in places.paths():
             if places.span(path).line == int(number):
                 return path
@@ -182,14 +190,14 @@ def _part(faults: Faults, data: Toml, name: str) -> Toml:
     found = data.get(name, {})
     if isinstance(found, dict):
         return found
-    faults.add("wrong-value", (name,), word=name, expected="a table", text=repr(found))
+    faults.add("wrong-value", (name,), word=name, expected="a table", text=quoted(found))
     return {}
 
 
 def _stations(faults: Faults, route: object) -> list[Toml]:
     if not isinstance(route, list) or not all(isinstance(each, dict) for each in route):
         faults.add("wrong-value", ("route",), word="route", expected="tables [[route]]",
-                   text=repr(route))  # fmt: skip
+                   text=quoted(route))  # fmt: skip
         return []
     found = []
     for i, each in enumerate(route):
@@ -255,11 +263,11 @@ def _value(faults: Faults, value: Any, takes: Takes, rule: str, path: Path) -> A
         return _grouped(faults, value, takes, path)
     good, expected = _fits(value, takes)
     if not good:
-        faults.add("wrong-value", path, word=word, expected=expected, text=repr(value))
+        faults.add("wrong-value", path, word=word, expected=expected, text=quoted(value))
         return None
     broken = [each for each in rule.split() if not isinstance(value, str) and BROKEN[each](value)]
     if broken:
-        faults.add(broken[0], path, word=word, text=repr(value))
+        faults.add(broken[0], path, word=word, text=quoted(value))
         return None
     if takes == "laws":
         return tuple("" if each in (0, "") else str(each) for each in value)
@@ -276,7 +284,7 @@ def _grouped(faults: Faults, value: Any, takes: NestedTable, path: Path) -> Any:
     """A table within a table; None where it is not whole."""
     if not isinstance(value, dict):
         wanted = f"a table of {', '.join(takes.rules)}"
-        faults.add("wrong-value", path, word=path[-1], expected=wanted, text=repr(value))
+        faults.add("wrong-value", path, word=path[-1], expected=wanted, text=quoted(value))
         return None
     found = _table(faults, value, takes.rules, path)
     return takes.make(**found) if len(found) == len(takes.rules) else None
@@ -295,6 +303,7 @@ def _fits(value: Any, takes: str | tuple[str | int, ...]) -> tuple[bool, str]:
         wanted = "one of " + ", ".join(map(str, takes))
         return value in takes and not isinstance(value, (bool, float)), wanted
     whole = _is_number(value) and isinstance(value, int)
+    most = f" of at most {LARGEST:g}" if isinstance(value, int) and not whole else ""
     return {
         "text": (_is_line(value), "a text in quotes, on one line"),
         "word": (_is_line(value) and len(value.split()) == 1, "one word in quotes"),
@@ -308,8 +317,8 @@ def _fits(value: Any, takes: str | tuple[str | int, ...]) -> tuple[bool, str]:
         "yes or no": (isinstance(value, bool), "true or false"),
         "curve": (_is_curve(value), "pairs [speed, torque] of rising speed, torques of 0 and more"),
         "range": (_is_range(value), "two numbers [low, high]"),
-        "whole or auto": (whole or value == "auto", "a whole number, or auto"),
-        "whole": (whole, "a whole number"),
+        "whole or auto": (whole or value == "auto", f"a whole number{most}, or auto"),
+        "whole": (whole, f"a whole number{most}"),
     }[takes]  # fmt: skip
 
 

@@ -147,7 +147,7 @@ def _take(found: _File, element: Element) -> None:
 def _take_entity(found: _File, entity: Element) -> None:
     for component in entity:
         number = component.get("id", "")
-        if not number.isdigit():
+        if not number.isdecimal():
             raise FormatError(f"a component of '{entity.get('name')}' has no number")
         found.names.append(_name(entity, component.get("name", "")))
         found.ids.append(int(number))
