@@ -125,7 +125,8 @@ def sizes_of_filters(deck: Deck) -> Iterator[Diagnostic]:
         inputs = _array(deck, system, "u")
         if inputs is not None and len(inputs.variables) > 1:
             yield _length(system, inputs, "u", len(inputs.variables), "VARIABLES", 1)
-        yield from _array_sizes(deck, system, len(system.denominator) - 1, 1)
+        if system.denominator:  # else it is reported as missing
+            yield from _array_sizes(deck, system, len(system.denominator) - 1, 1)
 
 
 def _array_sizes(
@@ -154,6 +155,8 @@ def _length(
 
 def polynomials(deck: Deck) -> Iterator[Diagnostic]:
     for system in deck.of(Tfsiso):
+        if not (system.numerator and system.denominator):
+            continue  # reported as missing
         below, above = len(system.denominator) - 1, degree(system.numerator)
         if system.denominator[-1] == 0.0:
             yield diagnose(system, "no-leading-coefficient", "denominator")

@@ -241,6 +241,7 @@ def _flags(random: Random) -> tuple[str, ...]:
         flags += ["--error", random.choice(["1e-300", "1e-10", "1e-3", "1", "1e300"])]
     if random.random() < 0.2:
         flags += ["--hmax", random.choice(["1e-300", "1e-6", "0.01", "1e300"])]
+    flags += ["--cpu-limit", "0.5"] if random.random() < 0.5 else []
     flags += ["--audit"] if random.random() < 0.1 else []
     flags += ["--page"] if random.random() < 0.05 else []
     return tuple(flags)

@@ -105,7 +105,8 @@ def _declares_type(data: bytes) -> bool:
     parser = ParserCreate()
     parser.StartDoctypeDeclHandler = lambda name, *_: found.append(name)
     parser.EntityDeclHandler = parser.StartElementHandler = begin
-    with suppress(_Begun, ExpatError):  # of which the reader speaks
+    # A code of letters that is none is a LookupError; the reader reports it.
+    with suppress(_Begun, ExpatError, LookupError):
         parser.Parse(data, True)
     return bool(found)
 
