@@ -73,6 +73,63 @@ def test_the_usual_folder_is_taken_back_from_others(cache, monkeypatch, caplog) 
     assert len(caplog.messages) == 1 and "emptied and closed" in caplog.text
 
 
+@UNIX
+@pytest.mark.parametrize("given", ["", "cache", "./cache"])
+def test_the_usual_folder_is_never_the_current_one(given, tmp_path, monkeypatch) -> None:
+    """Where a deck may have brought entries along; an empty variable counts as none."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "adamslite").mkdir()
+    monkeypatch.setenv("XDG_CACHE_HOME", given)
+    assert folder.usual_folder().is_absolute()
+    assert not folder.usual_folder().is_relative_to(tmp_path)
+
+
+@UNIX
+@pytest.mark.parametrize("way", ["group", "owner"])
+def test_a_folder_in_one_of_others_is_not_used(way, cache, tmp_path, monkeypatch, caplog) -> None:
+    """Whoever owns a folder, or may write to it, can put others in the place of those in it."""
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    shared = tmp_path / "shared"
+    shared.mkdir()
+    monkeypatch.setenv("ADAMSLITE_CACHE", str(shared / "cache"))
+    if way == "group":
+        shared.chmod(0o775)
+    elif OWNER == 0:
+        os.chown(shared, 12345, 12345)
+    else:
+        pytest.skip("only the administrator gives folders away")
+    assert folder.cache_folder() != shared.resolve() / "cache"
+    assert "can be replaced by" in caplog.text
+
+
+@UNIX
+@pytest.mark.parametrize("way", ["group", "world", "owner"])
+def test_an_entry_that_others_could_write_to_is_not_used(way, cache, caplog) -> None:
+    """The folder lets others look, and the mask of an earlier process let them write."""
+    cache.chmod(0o755)
+    entry = cache / NAME
+    entry.write_bytes(sealed(NAME, b"forged"))
+    if way == "owner":
+        if OWNER != 0:
+            pytest.skip("only the administrator gives files away")
+        os.chown(entry, 12345, 12345)
+    else:
+        entry.chmod(0o664 if way == "group" else 0o646)
+    assert recall(NAME, lambda: CONTENT) == CONTENT
+    assert "is rebuilt: others could write to it" in caplog.text
+    assert entry.stat().st_mode & 0o777 == 0o600 and entry.stat().st_uid == OWNER
+
+
+@UNIX
+def test_entries_are_closed_whatever_the_mask(cache) -> None:
+    before = os.umask(0)
+    try:
+        recall(NAME, lambda: CONTENT)
+    finally:
+        os.umask(before)
+    assert (cache / NAME).stat().st_mode & 0o777 == 0o600
+
+
 def nowhere(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
     """No folder can be made where the variable says; temporary files go to ``tmp_path``."""
     (tmp_path / "file").write_text("")

@@ -23,7 +23,7 @@ from pathlib import Path
 from typing import Any
 
 from adamslite.caching.contents import DAY, DRAFT, entries, found_files, remove
-from adamslite.caching.folder import cache_folder, warn
+from adamslite.caching.folder import HAS_OWNERS, OTHERS, cache_folder, is_trusted, warn
 from adamslite.errors import UsageError
 
 HEAD = struct.Struct("<8sQ32s")
@@ -58,7 +58,7 @@ def find(name: str) -> bytes | None:
     """The content kept under ``name``, verified; None when there is none or it fails."""
     path = cache_folder() / name
     try:
-        content = unsealed(name, path.read_bytes())
+        content = unsealed(name, _own_bytes(path))
     except FileNotFoundError:
         return None
     except (Damaged, OSError) as fault:
@@ -66,6 +66,15 @@ def find(name: str) -> bytes | None:
         return None
     _note_use(path)
     return content
+
+
+def _own_bytes(path: Path) -> bytes:
+    """What a file holds that nobody else can have written, or write to."""
+    with open(path, "rb") as file:
+        facts = os.fstat(file.fileno())
+        if HAS_OWNERS and (not is_trusted(facts.st_uid) or facts.st_mode & OTHERS):
+            raise Damaged("others could write to it")
+        return file.read()
 
 
 def keep(name: str, content: bytes) -> None:
@@ -124,7 +133,7 @@ def store(path: Path, content: bytes) -> None:
     draft = path.with_name(f".{path.name}.{os.getpid()}-{next(_numbers)}.part")
     entry = sealed(path.name, content)
     try:
-        with open(draft, "xb") as out:
+        with open(draft, "xb", opener=_closed) as out:
             out.write(entry)
             out.flush()
             os.fsync(out.fileno())
@@ -135,6 +144,11 @@ def store(path: Path, content: bytes) -> None:
         with suppress(OSError):
             draft.unlink(missing_ok=True)
     _keep_bound(path.parent, len(entry))
+
+
+def _closed(path: str, flags: int) -> int:
+    """Open a file that is its user's alone, whatever the mask of the process."""
+    return os.open(path, flags, 0o600)
 
 
 # ---- the size of the folder -------------------------------------------------------------------

@@ -50,11 +50,13 @@ def usual_folder() -> Path:
 def _usual_folder(platform: str, given: str | None, home: str | None) -> Path:
     """The same from what it depends on: it is needed for every entry."""
     of_user = Path(home) if home else Path.home()
+    # Empty or relative it would be in the current folder, which may have come with a deck.
+    named = Path(given) if given and os.path.isabs(given) else None
     if platform == "win32":
-        return Path(of_user if given is None else given) / "adamslite" / "cache"
+        return (named or of_user) / "adamslite" / "cache"
     if platform == "darwin":
         return of_user / "Library" / "Caches" / "adamslite"
-    return Path(of_user / ".cache" if given is None else given) / "adamslite"
+    return (named or of_user / ".cache") / "adamslite"
 
 
 @cache
@@ -103,15 +105,34 @@ def _doubt(folder: Path) -> str:
     facts = folder.lstat()
     if not stat.S_ISDIR(facts.st_mode):
         return "is not a folder"
-    if facts.st_uid not in (os.geteuid(), ADMINISTRATOR):
+    if not is_trusted(facts.st_uid):
         return "belongs to another user"
     if facts.st_mode & OTHERS:
         return f"can be written to by others (chmod go-w {folder})"
     for parent in folder.parents:
-        mode = parent.stat().st_mode
-        if mode & stat.S_IWOTH and not mode & stat.S_ISVTX:
+        facts = parent.stat()
+        if not (is_trusted(facts.st_uid) or _is_unmapped(facts.st_uid)):
+            return f"can be replaced by another user, to whom {parent} belongs"
+        if facts.st_mode & OTHERS and not facts.st_mode & stat.S_ISVTX:
             return f"can be replaced by others, who may write to {parent}"
     return ""
+
+
+def is_trusted(user: int) -> bool:
+    """Whether a user may have this program run what he likes: this one, and the administrator."""
+    return user in (os.geteuid(), ADMINISTRATOR)
+
+
+@cache
+def _is_unmapped(user: int) -> bool:
+    """Whether that is how Linux shows users outside of a container, of whom none is in it."""
+    try:
+        nobody = int(Path("/proc/sys/kernel/overflowuid").read_text(encoding="utf-8"))
+        mapped = Path("/proc/self/uid_map").read_text(encoding="utf-8").split()
+    except (OSError, ValueError):
+        return False
+    ranges = zip(map(int, mapped[::3]), map(int, mapped[2::3]), strict=False)
+    return user == nobody and not any(first <= user < first + count for first, count in ranges)
 
 
 def _taken_back(folder: Path) -> bool:
