@@ -25,7 +25,7 @@ POSIX = pytest.mark.skipif(os.name != "posix", reason="limits and streams of POS
 #: The others take as long as matplotlib does to be imported, or longer.
 QUICK = ("a table", "files of SAVE and LINEAR", "a deck of a cable", "a layout")
 EACH = [name if name in QUICK else pytest.param(name, marks=pytest.mark.slow) for name in WRITING]
-OLD = b"what was there before\n"
+OLD = b"# adamslite: what was there before\n"
 
 
 @pytest.fixture(scope="module")

@@ -8,6 +8,17 @@ from typing import IO, Any, Literal, overload
 
 from adamslite.errors import UsageError
 
+#: How files begin that this program writes: tables, what LINEAR and SAVE leave; matrices for MATLAB
+#: hold nothing but numbers.
+STARTS = (b"# adamslite", b"mode,frequency,", b'{\n "coordinates"', b'{\n "saved by adamslite"')
+#: What is in the head of a page, of a file .res and of a file .req.
+MARKS = (
+    b'name="generator" content="adamslite"',
+    b'<File URI="-unknown-"',
+    b" 2000-01-01 00:00:00 ",
+)
+HEAD, NUMBERS = 500, b"0123456789+-.e naif\n"
+
 
 @overload
 def whole_file(path: str | Path) -> AbstractContextManager[IO[str]]: ...
@@ -121,3 +132,16 @@ def _need_confined(path: Path) -> None:
         )
     if path.exists() and not path.is_file():
         raise UsageError(f"'{path}' is not a plain file; remove it or give -o another name")
+    if path.is_file() and not _is_own(path):
+        raise UsageError(
+            f"'{path}' is there and is no file of results: it is not written over; remove it or "
+            "give -o another name"
+        )
+
+
+def _is_own(path: Path) -> bool:
+    """Whether a file begins as those of this program do: decks may name any other one, too."""
+    with open(path, "rb") as stream:
+        head = stream.read(HEAD)
+    marked = any(mark in head for mark in MARKS)
+    return not head or marked or head.startswith(STARTS) or not head.translate(None, NUMBERS)
