@@ -81,8 +81,19 @@ def add_deck(parser: argparse.ArgumentParser, required: bool = True) -> None:
     add_values_flag(parser)
 
 
-def add_run_flags(parser: argparse.ArgumentParser) -> None:
-    """Declare the flags that win over what deck and command file say."""
+def add_scene_flags(parser: argparse.ArgumentParser) -> None:
+    """Declare the command file, and what is read or put in besides the deck."""
+    parser.add_argument(
+        "--commands", metavar="COMMANDS.acf", type=Path,
+        help="command file; without it the .acf beside the deck",
+    )  # fmt: skip
+    add_user_flag(parser)
+    add_folder_flag(parser)
+    add_values_flag(parser)
+
+
+def add_integration_flags(parser: argparse.ArgumentParser) -> argparse._ArgumentGroup:
+    """Declare how long a run takes, and how it is integrated."""
     flags = parser.add_argument_group("run", "these win over the deck and the command file")
     flags.add_argument("--end", type=positive, metavar="T", help="end time")
     flags.add_argument("--steps", type=count, metavar="N", help="number of output steps")
@@ -92,6 +103,12 @@ def add_run_flags(parser: argparse.ArgumentParser) -> None:
     )
     flags.add_argument("--error", type=positive, metavar="TOL", help="integration error per step")
     flags.add_argument("--hmax", type=positive, metavar="H", help="largest step")
+    return flags
+
+
+def add_run_flags(parser: argparse.ArgumentParser) -> None:
+    """Declare the flags that win over what deck and command file say."""
+    flags = add_integration_flags(parser)
     flags.add_argument(
         "--no-reduction", action="append", metavar="RULE",
         help="do without a reduction of the model: fixed, plane, points or variables; may be "
@@ -133,7 +150,8 @@ def run_options(args: argparse.Namespace) -> dict[str, Any]:
         "max_steps",
         "memory_limit",
     )
-    return {name: getattr(args, name) for name in names if getattr(args, name) is not None}
+    given = {name: getattr(args, name, None) for name in names}
+    return {name: each for name, each in given.items() if each is not None}
 
 
 def parse_flags(words: Sequence[str]) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from adamslite.analyses.subject import Subject, deck_of
-from adamslite.api.inputs import CommandSource, User, inputs
+from adamslite.api.inputs import CommandSource, User, given_options, inputs
 from adamslite.fitting import fit as fits
 from adamslite.fitting.parameters import Bounds
 from adamslite.fitting.record import Fit
@@ -76,11 +76,9 @@ def fit(
         When the deck does not run with the numbers that it starts with.
     """
     given = inputs(scene, commands, user)
-    flags = {
-        "end": end, "steps": steps, "integrator": integrator, "formulation": formulation,
-        "error": error, "hmax": hmax,
-    }  # fmt: skip
-    options = {name: each for name, each in flags.items() if each is not None}
+    options = given_options(
+        end=end, steps=steps, integrator=integrator, formulation=formulation, error=error, hmax=hmax
+    )
     wanted = fits.Wanted(by, bounds, of, (start, until))
     with closing(progress_of(progress)) as shown:
         return fits.fit(

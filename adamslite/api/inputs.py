@@ -6,7 +6,7 @@ import os
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from adamslite.deck.commands import Commands
 from adamslite.deck.deck import Deck
@@ -69,6 +69,11 @@ def inputs(
         found = with_commands(scene, commands)
     _warn(found.messages)
     return found
+
+
+def given_options(**flags: object) -> dict[str, Any]:
+    """The flags of a run that are given, as keyword arguments of a run."""
+    return {name: each for name, each in flags.items() if each is not None}
 
 
 def need_subject(scene: object) -> None:

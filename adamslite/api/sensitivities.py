@@ -8,7 +8,7 @@ from contextlib import closing
 from typing import Any
 
 from adamslite.analyses.subject import Subject
-from adamslite.api.inputs import CommandSource, User, inputs
+from adamslite.api.inputs import CommandSource, User, given_options, inputs
 from adamslite.progress import Progress, progress_of
 from adamslite.sensitivity.adjoint import ALL
 from adamslite.sensitivity.adjoint import gradient as swept
@@ -62,11 +62,9 @@ def sensitivities(
         When it ends early.
     """
     given = inputs(scene, commands, user)
-    flags = {
-        "end": end, "steps": steps, "integrator": integrator, "formulation": formulation,
-        "error": error, "hmax": hmax,
-    }  # fmt: skip
-    options = {name: each for name, each in flags.items() if each is not None}
+    options = given_options(
+        end=end, steps=steps, integrator=integrator, formulation=formulation, error=error, hmax=hmax
+    )
     with closing(progress_of(progress)) as shown:
         return worked_out(given.subject, by, of, given.commands, shown, **options)
 
@@ -118,9 +116,7 @@ def gradient(
         When it ends early.
     """
     given = inputs(scene, commands, user)
-    flags = {
-        "end": end, "steps": steps, "integrator": integrator, "formulation": formulation,
-        "error": error, "hmax": hmax,
-    }  # fmt: skip
-    options = {name: each for name, each in flags.items() if each is not None}
+    options = given_options(
+        end=end, steps=steps, integrator=integrator, formulation=formulation, error=error, hmax=hmax
+    )
     return swept(given.subject, of, by, given.commands, **options)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from adamslite.analyses.subject import Subject, deck_of
-from adamslite.api.inputs import CommandSource, User, inputs
+from adamslite.api.inputs import CommandSource, User, given_options, inputs
 from adamslite.kept_scene import tables_of
 from adamslite.progress import Progress, progress_of
 from adamslite.sweeps import netcdf
@@ -97,11 +97,16 @@ def sweep(
     """
     given = inputs(scene, commands, user)
     deck = deck_of(given.subject)
-    flags = {
-        "end": end, "steps": steps, "integrator": integrator, "formulation": formulation,
-        "error": error, "hmax": hmax, "cpu_limit": cpu_limit, "max_steps": max_steps,
-    }  # fmt: skip
-    options = {name: each for name, each in flags.items() if each is not None}
+    options = given_options(
+        end=end,
+        steps=steps,
+        integrator=integrator,
+        formulation=formulation,
+        error=error,
+        hmax=hmax,
+        cpu_limit=cpu_limit,
+        max_steps=max_steps,
+    )
     read = [deck.path] if deck.path else []
     read += [deck.folder / name for name in tables_of(deck, given.commands)]
     with closing(progress_of(progress)) as shown:

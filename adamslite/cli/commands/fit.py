@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 
 from adamslite.cli.commands.codes import DONE, OUTSIDE_TOLERANCE, STOPPED_EARLY
-from adamslite.run_flags import add_folder_flag, add_user_flag, add_values_flag, count, positive
+from adamslite.run_flags import add_integration_flags, add_scene_flags, run_options
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -40,19 +40,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--plot", metavar="FIGURE", help="draw measured and fitted curves (.png, .svg, .pdf)"
     )
-    parser.add_argument(
-        "--commands", metavar="COMMANDS.acf", type=Path,
-        help="command file; without it the .acf beside the deck",
-    )  # fmt: skip
-    add_user_flag(parser)
-    add_folder_flag(parser)
-    add_values_flag(parser)
-    flags = parser.add_argument_group("run", "these win over the deck and the command file")
-    flags.add_argument("--end", type=positive, metavar="T", help="end time")
-    flags.add_argument("--steps", type=count, metavar="N", help="number of output steps")
-    flags.add_argument("--integrator", type=str.upper, metavar="NAME", help="GSTIFF, ...")
-    flags.add_argument("--error", type=positive, metavar="TOL", help="integration error per step")
-    flags.add_argument("--hmax", type=positive, metavar="H", help="largest step")
+    add_scene_flags(parser)
+    add_integration_flags(parser)
     parser.add_argument("--quiet", action="store_true", help="show no progress")
 
 
@@ -73,8 +62,7 @@ def run(args: argparse.Namespace) -> int:
     for path, named in ((output, bool(args.output)), (args.plot, True)):
         if path:
             need_writable(path, [*scene.read, args.measured], named)
-    flags = ("end", "steps", "integrator", "error", "hmax")
-    options = {name: getattr(args, name) for name in flags if getattr(args, name) is not None}
+    options = run_options(args)
     wanted = Wanted(args.by, args.bounds, args.of, (args.start, args.until))
     progress = Progress() if args.quiet else TalkingProgress()
     deck = with_values(scene.deck, args.values) if args.values else scene.deck

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from adamslite.cli.commands.codes import DONE, STOPPED_EARLY
-from adamslite.run_flags import add_folder_flag, add_user_flag, add_values_flag, count, positive
+from adamslite.run_flags import add_integration_flags, add_scene_flags, run_options
 
 if TYPE_CHECKING:
     from adamslite.scene import Scene
@@ -41,20 +41,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="for many numbers: from the end of the run to its beginning; `--by all`",
     )  # fmt: skip
     parser.add_argument("-o", "--output", metavar="OUT", help="file of histories (.csv, .nc, ...)")
-    parser.add_argument(
-        "--commands", metavar="COMMANDS.acf", type=Path,
-        help="command file; without it the .acf beside the deck",
-    )  # fmt: skip
-    add_user_flag(parser)
-    add_folder_flag(parser)
-    add_values_flag(parser)
-    flags = parser.add_argument_group("run", "these win over the deck and the command file")
-    flags.add_argument("--end", type=positive, metavar="T", help="end time")
-    flags.add_argument("--steps", type=count, metavar="N", help="number of output steps")
-    flags.add_argument("--integrator", type=str.upper, metavar="NAME", help="GSTIFF or RADAU")
-    flags.add_argument("--formulation", type=str.upper, metavar="FORM", help="I3 or SI2, of GSTIFF")
-    flags.add_argument("--error", type=positive, metavar="TOL", help="integration error per step")
-    flags.add_argument("--hmax", type=positive, metavar="H", help="largest step")
+    add_scene_flags(parser)
+    add_integration_flags(parser)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -70,8 +58,7 @@ def run(args: argparse.Namespace) -> int:
     if args.output:
         format_of(args.output)
         need_writable(args.output, scene.read, True)
-    flags = ("end", "steps", "integrator", "formulation", "error", "hmax")
-    options = {name: getattr(args, name) for name in flags if getattr(args, name) is not None}
+    options = run_options(args)
     try:
         found = _found(args, scene, options)
     except RunFailed as fault:

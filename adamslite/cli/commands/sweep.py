@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from adamslite.cli.commands.codes import DONE, STOPPED_EARLY
-from adamslite.run_flags import add_folder_flag, add_user_flag, add_values_flag, count, positive
+from adamslite.run_flags import add_integration_flags, add_scene_flags, count, positive, run_options
 
 if TYPE_CHECKING:
     from adamslite.sweeps.record import Sweep
@@ -54,19 +54,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--scheduler", metavar="ADDRESS",
         help="workers are those of a Dask cluster: tcp://host:8786, or the scheduler's .json file",
     )  # fmt: skip
-    parser.add_argument(
-        "--commands", metavar="COMMANDS.acf", type=Path,
-        help="command file; without it the .acf beside the deck",
-    )  # fmt: skip
-    add_user_flag(parser)
-    add_folder_flag(parser)
-    add_values_flag(parser)
-    flags = parser.add_argument_group("run", "these win over the deck and the command file")
-    flags.add_argument("--end", type=positive, metavar="T", help="end time")
-    flags.add_argument("--steps", type=count, metavar="N", help="number of output steps")
-    flags.add_argument("--integrator", type=str.upper, metavar="NAME", help="GSTIFF, ...")
-    flags.add_argument("--error", type=positive, metavar="TOL", help="integration error per step")
-    flags.add_argument("--hmax", type=positive, metavar="H", help="largest step")
+    add_scene_flags(parser)
+    flags = add_integration_flags(parser)
     flags.add_argument("--cpu-limit", type=positive, metavar="S", help="CPU of each run in seconds")
     flags.add_argument("--max-steps", type=count, metavar="N", help="steps of each run")
     parser.add_argument("--quiet", action="store_true", help="print nothing unless runs fail")
@@ -90,8 +79,7 @@ def run(args: argparse.Namespace) -> int:
         raise UsageError(f"-o {output}: the file of a sweep ends in .nc")
     scene = load_scene(args.deck, args.commands, args.user, args.values)
     wanted = Wanted(args.varied, args.sample, args.seed, args.measures, args.outputs)
-    flags = ("end", "steps", "integrator", "error", "hmax", "cpu_limit", "max_steps")
-    options = {name: getattr(args, name) for name in flags if getattr(args, name) is not None}
+    options = run_options(args)
     means = Means(args.workers, "threads" if args.threads else "processes", args.scheduler)
     progress = Progress() if args.quiet else TalkingProgress()
     began = clock.perf_counter()
