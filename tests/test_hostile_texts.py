@@ -4,7 +4,6 @@ What grows is counted: bytes, comparisons, messages; never seconds.
 """
 
 import gc
-import re
 import tracemalloc
 from random import Random
 
@@ -147,6 +146,7 @@ def test_one_wrong_letter_is_found_among_many_names():
 
 ITEMS = (
     "A=1", "FLAG", "7", "1 2 3 4 5 6", "F=IF(TIME: MAX(1,2,3,4,5,6), 2, 3)+1", "F=1+2+3+4+5+6+7",
+    "F=SIN(1)+MAX[2, 3]+SIN(3)+A()+DX(1,2)+DX(3,4)",
     "(1, 2, 3, 4, 5, 6)",
 )  # fmt: skip
 KINDS_OF_TOKENS = (
@@ -169,8 +169,9 @@ def random_kinds(random):
 
 def test_a_long_statement_is_parsed_by_pieces_as_it_is_as_a_whole(monkeypatch):
     monkeypatch.setattr(forms, "PIECE", 5)
-    monkeypatch.setattr(forms, "RUN", re.compile("[a,]{4,}"))
-    monkeypatch.setattr(forms, "VALUES", re.compile("a{4,}"))
+    run, values = forms.runs(4)
+    monkeypatch.setattr(forms, "RUN", run)
+    monkeypatch.setattr(forms, "VALUES", values)
     random, right = Random(18), 0
     for _ in range(3000):
         kinds = random_kinds(random)
@@ -201,6 +202,23 @@ def test_a_marker_with_a_hundred_thousand_values_has_one_message():
     assert [(each.code, each.message) for each in found if each.is_error] == [
         ("value-count", "QP takes 3 values and has 100001")
     ]
+
+
+def test_brackets_inside_each_other_have_one_message():
+    found = told(f"{DECK}VARIABLE/1, FUNCTION={'(1+' * 50_000}")
+    assert [(each.code, each.span.column) for each in found.errors] == [
+        ("too-deep", 22 + 3 * (forms.MOST_OPEN - 1))
+    ]
+
+
+def test_rules_are_not_asked_again_where_nothing_of_it_would_be_kept(monkeypatch):
+    asked = []
+    monkeypatch.setattr(
+        "adamslite.reading.read.further_mistakes", lambda given, *_: asked.append(len(given)) or ()
+    )
+    told(DECK + "".join(f"MARKER/{n}, PART={n}\n" for n in (*range(10, 400),)))
+    told(DECK + "MARKER/10, PART=10\n")
+    assert asked == [0, 1]
 
 
 # ---- long expressions ----------------------------------------------------------------------------

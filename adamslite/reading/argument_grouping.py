@@ -252,12 +252,12 @@ class Grouping:
             hint = meant(word, f"{keyword} {valued}", lambda: table)
             hint = hint or meant(word, f"{keyword} {not valued}", lambda: others)
             self.unknown_flag = self.unknown_flag or not valued
-            if not valued:
+            if not (valued or hint or self.log.full):
                 homes = [c.keyword for c in STATEMENTS.values() if word in vocabulary(c).bare]
-                hint = hint or f"{word} belongs to {' or '.join(homes[:3])}" * bool(homes)
+                hint = f"{word} belongs to {' or '.join(homes[:3])}" * bool(homes)
             self.log.add(
                 "unknown-argument", *place, word=token[1], keyword=self.cls.keyword,
-                known=", ".join(self.words.known), hint=hint,
+                known="" if self.log.full else ", ".join(self.words.known), hint=hint,
             )  # fmt: skip
             return hint.removeprefix("did you mean ").rstrip("?")
         return ""

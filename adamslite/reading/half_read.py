@@ -18,6 +18,8 @@ from adamslite.language.statement import Statement
 
 # Statements that rules are asked about, all decks together: a large deck is asked less often.
 MOST = 50_000
+# Characters of the text that take a rule as long as a statement.
+LETTERS = 200
 
 
 class Unread(Exception):
@@ -45,7 +47,8 @@ def further_mistakes(
     statements: Iterable[Statement], rules: Sequence[Rule], deck: Deck
 ) -> Iterator[Diagnostic]:
     """What rules say of statements that are not in the deck because they are read in part only."""
-    for each in list(statements)[: max(1, MOST // max(1, len(deck.own)))]:
+    cost = max(1, len(deck.own) + len(deck.source.text) // LETTERS)
+    for each in list(statements)[: max(1, MOST // cost)]:
         try:
             larger = deck.with_one(each)
         except Unread:  # what it brings with it

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from itertools import chain
 from pathlib import Path
 
 from adamslite.checks.inert import note_of_inert, untouched
@@ -149,9 +148,12 @@ def _judged(
     ``named``: the deck that has the statements which messages name.
     """
     deck.incomplete |= reading.broken
-    for each in chain(apply(rules, deck), further_mistakes(reading.half_read, rules, deck)):
-        reading.log.take(each)
-    diagnostics = with_named(named, reading.log.finish())
+    log = reading.log
+    for each in apply(rules, deck):
+        log.take(each)
+    for each in further_mistakes(() if log.full else reading.half_read, rules, deck):
+        log.take(each)
+    diagnostics = with_named(named, log.finish())
     if any(diagnostic.is_error for diagnostic in diagnostics):
         raise DeckError(judged(deck.source, diagnostics, complete=False), deck)
     return tuple(diagnostics)

@@ -18,6 +18,7 @@ from collections.abc import Iterator, Sequence
 from functools import cache, lru_cache
 from hashlib import sha256
 from io import BytesIO
+from itertools import accumulate
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -37,14 +38,27 @@ HEAD = ("NAME", "SLASH")
 LONG, PIECE = 512, 256
 """Tokens of a statement above which it is parsed piece by piece, and of a piece."""
 SEPARATORS = ("COMMA", "BACKSLASH")
+MOST_OPEN = 1000
+"""Brackets inside each other; expressions of so many are rejected in any case."""
 BRACKETS = {"LPAR": 1, "LSQB": 1, "RPAR": -1, "RSQB": -1}
 CODES = {
-    "LPAR": "(", "LSQB": "(", "RPAR": ")", "RSQB": ")", "COMMA": ",", **dict.fromkeys(
+    "LPAR": "(", "LSQB": "[", "RPAR": ")", "RSQB": "]", "COMMA": ",", **dict.fromkeys(
         "NAME NUMBER QUOTED PLUS MINUS POWER STAR SLASH COLON OTHER".split(), "a"
     )
 }  # fmt: skip
 """Kinds of tokens as letters: brackets, commas, and values, which may follow each other."""
-RUN, VALUES = re.compile("[a,]{99,}"), re.compile("a{99,}")
+OTHER_END = {"(": ")", "[": "]", ")": "(", "]": "["}
+
+
+def runs(least: int) -> tuple[re.Pattern[str], re.Pattern[str]]:
+    """So many values or more: with commas between them, as inside brackets, and without.  Brackets
+    with values in them are a value.
+    """
+    value = r"a|\([a,]*+\)|\[[a,]*+\]"
+    return re.compile(f"(?:,|{value}){{{least},}}+"), re.compile(f"(?:{value}){{{least},}}+")
+
+
+RUN, VALUES = runs(99)
 
 
 class Fault(NamedTuple):
@@ -186,6 +200,10 @@ def _long_form(kinds: tuple[str, ...]) -> tuple[Item, ...] | Fault:
     """
     if kinds[:2] != HEAD:
         return Fault(int(kinds[0] == HEAD[0]))
+    deep = _too_deep(kinds)
+    if deep is not None:
+        before = statement_form(kinds[:deep])
+        return Fault(min(deep, before.at)) if isinstance(before, Fault) else Fault(deep)
     seen = _without_runs(kinds)
     shorter = kinds if len(seen) == len(kinds) else tuple([kinds[at] for at in seen])
     items: list[Item] = []
@@ -203,6 +221,14 @@ def _long_form(kinds: tuple[str, ...]) -> tuple[Item, ...] | Fault:
     return tuple(items)
 
 
+def _too_deep(kinds: tuple[str, ...]) -> int | None:
+    """The number of the bracket that is one too many inside each other."""
+    if kinds.count("LPAR") + kinds.count("LSQB") <= MOST_OPEN:
+        return None
+    opened = accumulate(BRACKETS.get(kind, 0) for kind in kinds)
+    return next((at for at, depth in enumerate(opened) if depth > MOST_OPEN), None)
+
+
 def _without_runs(kinds: tuple[str, ...]) -> Sequence[int]:
     """Numbers of the tokens without those inside long runs of values, where each may be any."""
     code = "".join([CODES.get(kind, "x") for kind in kinds])
@@ -210,11 +236,17 @@ def _without_runs(kinds: tuple[str, ...]) -> Sequence[int]:
     done = counted = depth = 0
     for run in RUN.finditer(code, len(HEAD)):
         start, end = run.span()
-        depth += sum(code.count(each, counted, start) * by for each, by in (("(", 1), (")", -1)))
+        depth += sum(code.count(each, counted, start) for each in "([")
+        depth -= sum(code.count(each, counted, start) for each in ")]")
         counted = start
         for inner in (run,) if depth > 0 else VALUES.finditer(code, start, end):
-            seen += range(done, inner.start() + 1)
-            done = inner.end() - 1
+            first, last = inner.start(), inner.end() - 1
+            if code[first] in OTHER_END:
+                first = code.index(OTHER_END[code[first]], first)
+            if code[last] in OTHER_END:
+                last = code.rindex(OTHER_END[code[last]], first, last)
+            seen += range(done, first + 1)
+            done = last
     return [*seen, *range(done, len(kinds))] if seen else range(len(kinds))
 
 

@@ -11,7 +11,7 @@ from itertools import pairwise
 from typing import NamedTuple, TypeAlias
 
 from adamslite.language.spelling import spelled
-from adamslite.syntax.forms import Fault, Item, statement_form
+from adamslite.syntax.forms import MOST_OPEN, Fault, Item, statement_form
 from adamslite.syntax.lines import Logical
 from adamslite.syntax.tokens import CLOSES, OPERATORS, Lexeme, end_of
 
@@ -141,14 +141,8 @@ def _statement_mistake(tokens: list[Lexeme], at: int) -> Mistake:
     kind = _kind(tokens, at)
     if at < 2:
         return _header_mistake(tokens, at, kind)
-    opened = _open_brackets(tokens[:at])
-    if opened and kind in ("END", "EQUAL", "BACKSLASH"):
-        return Mistake("unclosed-bracket", opened[-1], opened[-1], {"word": tokens[opened[-1]][1]})
-    if kind in CLOSES.values():
-        if not opened:
-            return Mistake("unopened-bracket", here, here, {"word": tokens[here][1]})
-        words = {"word": tokens[here][1], "other": tokens[opened[-1]][1]}
-        return Mistake("wrong-bracket", opened[-1], here, words)
+    if mistake := _bracket_mistake(tokens, _open_brackets(tokens[:at]), here, kind):
+        return mistake
     if tokens[at - 1][0] == "EQUAL":
         return Mistake("missing-value", at - 2, at - 1, {"word": tokens[at - 2][1]})
     if kind == "END":
@@ -160,6 +154,22 @@ def _statement_mistake(tokens: list[Lexeme], at: int) -> Mistake:
     if kind == "AMPERSAND":
         return Mistake("stray-ampersand", here, here)
     return _stray(tokens, here)
+
+
+def _bracket_mistake(
+    tokens: list[Lexeme], opened: list[int], here: int, kind: str
+) -> Mistake | None:
+    """What is wrong with brackets, of which some are open."""
+    if len(opened) >= MOST_OPEN:
+        return Mistake("too-deep", opened[-1], opened[-1], {"limit": str(MOST_OPEN)})
+    if opened and kind in ("END", "EQUAL", "BACKSLASH"):
+        return Mistake("unclosed-bracket", opened[-1], opened[-1], {"word": tokens[opened[-1]][1]})
+    if kind in CLOSES.values():
+        if not opened:
+            return Mistake("unopened-bracket", here, here, {"word": tokens[here][1]})
+        words = {"word": tokens[here][1], "other": tokens[opened[-1]][1]}
+        return Mistake("wrong-bracket", opened[-1], here, words)
+    return None
 
 
 def _stray(tokens: list[Lexeme], here: int) -> Mistake:

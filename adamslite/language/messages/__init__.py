@@ -145,6 +145,11 @@ class Log:
         return self._errors
 
     @property
+    def full(self) -> bool:
+        """Whether further errors are only counted."""
+        return self._kept[ERROR] >= MOST
+
+    @property
     def count(self) -> int:
         """How many messages there were so far, with those that are not kept."""
         return self._said
