@@ -20,7 +20,7 @@ def exponents_or_degrees(deck: Deck) -> Iterator[Diagnostic]:
     sources = {id(each.spans.source): each.spans.source for each in deck.statements}
     if not any(source and SIGNED.search(source.text) for source in sources.values()):
         return
-    for each in deck.statements:
+    for each in deck.own:  # what a statement brings along has its places
         for field in each.spans:
             if each.arguments[field].kind == "expression":
                 yield from _inside(each, field)

@@ -69,10 +69,13 @@ def read(path: str | Path) -> Results:
     except (ValueError, TypeError):
         raise FormatError(f"{path}: a column of it is not of numbers") from None
     values = np.column_stack(columns)
-    found = {key.decode(): text.decode() for key, text in (table.schema.metadata or {}).items()}
     metadata = {field.name: field.metadata or {} for field in table.schema}
-    units = {name: metadata[name].get(b"unit", b"").decode() for name in names}
-    run = restored(found)
+    try:
+        found = {key.decode(): text.decode() for key, text in (table.schema.metadata or {}).items()}
+        units = {name: metadata[name].get(b"unit", b"").decode() for name in names}
+        run = restored(found)
+    except (UnicodeDecodeError, FormatError) as fault:
+        raise FormatError(f"{path} is damaged: {fault}") from None
     channels = {} if run["source"] else with_units(units)
     time, values = values[:, 0].copy(), np.ascontiguousarray(values[:, 1:])
     return Results(time=time, names=names, values=values, channels=channels, **run)
