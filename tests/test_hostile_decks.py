@@ -305,3 +305,33 @@ def test_tables_and_summaries_give_a_terminal_no_command(tmp_path: Path) -> None
         ran = command(tmp_path, *words)
         assert "fault in the program" not in ran.stderr
         assert obeyed(ran.stdout + ran.stderr) == []
+
+
+# ---- descriptions -------------------------------------------------------------------------------
+
+DESCRIPTIONS = {
+    "arrays in arrays": "a = " + "[" * 100_000,
+    "tables in tables": "a = " + "{b=" * 20_000,
+    "a key of many parts": "a." * 50_000 + "b = 1",
+    "a table of many parts": "[a" + ".a" * 50_000 + "]",
+    "quoted parts": '"a" . ' * 50_000 + "b = 1",
+    "a long key": "x" * 1_000_000 + " = 1",
+    "digits": "length = " + "9" * 5000,
+    "infinity": "length = 1e999",
+    "controls": r'title = "\u001b[2J\u202e"' + "\n[cable]\n" + r'EA = "\u001b[2J\u202e"',
+}
+
+
+@pytest.mark.parametrize("case", DESCRIPTIONS)
+def test_a_description_of_others_ends_in_a_sentence(case: str) -> None:
+    """Reading some of them took a time that grew with the square of their length: hours."""
+    text = f"{DESCRIPTIONS[case]}\n"
+    with pytest.raises(al.DeckError) as told_of:
+        al.cable(text)
+    assert obeyed(str(told_of.value)) == []
+
+
+@pytest.mark.parametrize("case", DESCRIPTIONS)
+def test_a_description_in_comments_of_a_deck_stops_nothing(case: str) -> None:
+    lines = (f"!# {line}\n" for line in f"cable\n{DESCRIPTIONS[case]}".split("\n"))
+    assert not al.check(SPRING.replace("END\n", f"{''.join(lines)}END\n")).errors

@@ -100,11 +100,12 @@ def _model(text: str) -> Model | None:
     import tomllib
 
     from adamslite.cables.description.keys import FORMS
+    from adamslite.cables.description.toml_places import has_long_key
     from adamslite.cables.description.vocabulary import MOST_SECTIONS
 
     try:
-        shown: dict[str, Any] = tomllib.loads(text)
-    except tomllib.TOMLDecodeError:
+        shown: dict[str, Any] = {} if has_long_key(text) else tomllib.loads(text)
+    except (ValueError, RecursionError):
         return None
     kinds = (int, str, int, str, float, bool, list)
     values = [shown.get(name) for name in Model._fields]

@@ -6,6 +6,14 @@ from adamslite.language.diagnostics import Source, Span
 
 Path = tuple[str | int, ...]
 
+#: A key of fifty parts: reading one takes a time that grows with the square of their number.
+LONG = re.compile(r"""(?<![\w."'-])(?:(?:"[^"\n]*+"|'[^'\n]*+'|[\w-]++)[ \t]*+\.[ \t]*+){50}""")
+
+
+def has_long_key(text: str) -> bool:
+    """Whether a key has more parts than any description needs."""
+    return bool(LONG.search(text))
+
 
 class Places:
     """Places of tables and of keys at the beginning of a line.
