@@ -1,6 +1,6 @@
 """What a gradient by 1000 numbers costs: CPU of a run and of a sweep back, on a rope of springs.
 
-python -m benchmarks.gradients [--sections 251] [--integrator GSTIFF]
+python -m benchmarks.gradients [--sections 251] [--integrator GSTIFF] [--of MEASURE]
 """
 
 from __future__ import annotations
@@ -49,13 +49,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--sections", type=int, default=251)
     parser.add_argument("--integrator", default="GSTIFF")
+    parser.add_argument("--of", default=MEASURE)
     args = parser.parse_args()
     deck = al.read(rope(args.sections))
     kernels = al.compile_model(al.assemble(deck))
     by = [each.name for each in al.names(deck) if each.name.partition(".")[2] in VARIED][:MOST]
     flags: dict[str, Any] = {"integrator": args.integrator}
     run, results = least(lambda: al.simulate(kernels, **flags))
-    sweep, _ = least(lambda: al.gradient(kernels, [MEASURE], by, **flags))
+    sweep, _ = least(lambda: al.gradient(kernels, [args.of], by, **flags))
     print(f"{len(by)} numbers, {results.summary['steps']} steps: run {run:.4f} s of CPU, "
           f"gradient {sweep:.4f} s, {sweep / run:.2f} runs")  # fmt: skip
 

@@ -28,15 +28,18 @@ ENTRIES = sorted({method.entry for method in declared()} | {engine.OPERATIONS})
 for _entry in ENTRIES:
     import_module(_entry.rpartition(".")[0])
 # All of the package but what kernels call, and derivatives along a run, which have entries of their
-# own and are compared with differences.
-DERIVATIVES = (f"{engine.HERE}sensitivity.", f"{engine.HERE}integrators.linalg.transposed")
+# own (test_derivative_entries).
+DERIVATIVES = (
+    f"{engine.HERE}sensitivity.", f"{engine.HERE}integrators.linalg.transposed",
+    f"{engine.HERE}integrators.linalg.complex_transposed",
+)  # fmt: skip
 ENGINE = {
     name
     for name, code in REGISTERED.items()
     if code.__module__.startswith(engine.HERE) and code.__module__ != lookup.__name__
     and not code.__module__.startswith(DERIVATIVES)
 }  # fmt: skip
-# What derivatives alone ask for: the tape of a run.
+# What derivatives alone ask for: the tape of a run (test_derivative_entries).
 TAPE = {"tape_event", "tape_row", "tape_step"}
 
 # Newton alone would leave it upright.

@@ -10,7 +10,8 @@ start, begin                   at the start of a run and behind its events
 differences, corrector         along the steps of backward differences; their linear systems
 stages, stage_error            along the steps of Radau; what they are off by
 adjoint_columns, _numbers      measures as weights of columns; numbers of equations as the deck's
-adjoint_sweep, _formula        the same steps from the end to the beginning; _stages those of Radau
+adjoint_tape, _formula         the tape row by row, and the coefficients of its steps
+adjoint_sweep, _stages         the same steps from the end to the beginning; those of Radau
 adjoint_weights, transposed    weights carried back through equations and through their systems
 contract                       records that native code is given
 """

@@ -35,13 +35,14 @@ class Row:
 
 
 class Way(NamedTuple):
-    """The way of weights of differences through a step: dbar = ``own`` . Dbar of what the corrector
-    finds, and ``past`` Dbar + ``rate`` psibar before it.
+    """The way of weights of differences through a step: ybar = ``own`` . Dbar of what the corrector
+    finds, and ``past`` Dbar + ``rate`` psibar + ``level`` y_pbar before it.
     """
 
     own: np.ndarray
     past: np.ndarray
     rate: np.ndarray
+    level: np.ndarray
 
 
 @cache
@@ -57,10 +58,9 @@ def way_of(k: int, ratio: float) -> Way:
         back[j + 1] += back[j]
     own = back[k + 1] + back[k + 2]
     back[k + 1], back[k + 2] = -back[k + 2], 0.0
-    back[: k + 1] -= own
     change = resized(k, ratio).T
     back[: k + 1] = change @ back[: k + 1]
-    return Way(own, back, change @ (g / g[k] - 1.0))
+    return Way(own, back, change @ (g / g[k]), change.sum(axis=1))
 
 
 def resized(k: int, ratio: float) -> np.ndarray:

@@ -5,31 +5,48 @@ Of the stages Z_i = (q, lam, V, s, mu)_i of a step, with w = A^-1/h,
     u_i = sum_j w_ij (q_j - q_0) - w x theta_i + W G^T mu_i,   a_i = sum_j w_ij (u_j - u_0),
     s'_i = sum_j w_ij (s_j - s_0),    F_q q_i + F_u u_i + F_a a_i + F_z z_i + F_s' s'_i + F_p = 0
 
-(:mod:`adamslite.sensitivity.stages`) one sparse matrix M is made, with the exact derivatives at
-each stage.  From weights of the stages M^T nu = r, and those of the start are, r_i = sum_j w_ij,
+(:mod:`adamslite.sensitivity.stages`) is a linear system M Z = ... with the derivatives at each
+stage.  Weights of the stages, M^T nu = r, are found as stages are: with the matrices at the middle
+stage, transposed, for increments of nu, until they are round-off.  One of
 
-    q_0bar = -sum r_i gbar_i,   gbar_i = ubar_i - F_u^T nu_i - sum_k w_ki F_a^T nu_k,
-    u_0bar = sum r_i F_a^T nu_i,   s_0bar = sum r_i F_s'^T nu_i
+    r_i <- r_i - (M^T dnu)_i,    (M^T nu)_i = F_q^T nu_i + sum_j w_ji g_j + w_i x g_i, ...,
+    g_i = F_u^T nu_i + sum_k w_ki F_a^T nu_k
+
+takes weights of the equations at three states; all that hangs on nu is added up with them.
+Weights of the start are, with r_i = sum_j w_ij and gbar_i = ubar_i - g_i,
+
+    q_0bar = -sum r_i gbar_i,   u_0bar = sum r_i F_a^T nu_i,   s_0bar = sum r_i F_s'^T nu_i
+
+which are differences of what is 1/(h f)^2 as large, for motion of the frequency f.  By M^T nu = r
+they are
+
+    q_0bar = sum p_i,   p_i = qbar_i - F_q^T nu_i + w_i x gbar_i,   gbar_i = -h sum a_ji p_j,
+    u_0bar = sum ubar_i - F_u^T nu_i - gbar_i,   s_0bar = sum sbar_i - F_s^T nu_i
 """
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from adamslite.errors import UsageError
 from adamslite.integrators.radau.coefficients import INVERSE, NODE
+from adamslite.integrators.radau.history import Y_ROWS, Z_ROWS
 from adamslite.sensitivity.adjoint_columns import Seed
 from adamslite.sensitivity.adjoint_formula import Row
-from adamslite.sensitivity.adjoint_sweep import SINGULAR, Sweep
-from adamslite.sensitivity.transposed import BLOCKS, LAY, PUT_STAGE
+from adamslite.sensitivity.adjoint_sweep import Sweep
+from adamslite.sensitivity.adjoint_tape import SINGULAR
+from adamslite.sensitivity.adjoint_weights import Slopes
+from adamslite.sensitivity.transposed import BLOCKS, FACTOR_STAGES, LAY, PUT_STAGE, SOLVE_STAGES
 
-if TYPE_CHECKING:  # few runs need sparse matrices
-    from scipy.sparse import csc_array, csr_array
-
+if TYPE_CHECKING:
     from adamslite.equations.system import System
 
+# Increments stop where the next one would be this share of what they have added up to; those that
+# shrink no further than STALLED are round-off below ROUND_OFF; and after so many.
+ENOUGH, STALLED, ROUND_OFF, MOST = 1e-10, 0.5, 1e-7, 40
 STAGES = range(3)
 
 
@@ -40,10 +57,11 @@ class StageSweep(Sweep):
         super().__init__(system)
         self.at_stages = np.zeros((4, self.w))
         self.inverse = system.tableau[INVERSE : INVERSE + 9].reshape(3, 3)
+        self.formula = np.linalg.inv(self.inverse)
         self.nodes = system.tableau[NODE : NODE + 2]
-        live = np.ones(system.nz, dtype=bool)
-        live[system.elimination.dead] = False
-        self.live = np.flatnonzero(np.tile(live, 3))
+        e = self.first + system.ns + system.holonomic
+        at = Y_ROWS * self.w + Z_ROWS * e
+        self.residuals = system.history[at : at + 3 * system.nz].reshape(3, system.nz)
 
     def _output(self, k: int, row: Row, output: int, seed: Seed) -> None:
         nw = self.system.nw
@@ -65,101 +83,93 @@ class StageSweep(Sweep):
         """A step of its own has no history."""
 
     def _step(self, k: int, row: Row) -> None:
-        n, first, nz, system = self.n, self.first, self.system.nz, self.system
-        w = self.inverse / row.h
+        n, w = self.n, self.inverse / row.h
         weights = self.at_stages[1:]
         weights[2] += self.bar[0]
         states = self._stages(k, row)
-        matrix, motion = self._matrix(states, w)
-        r = (motion.T @ weights[:, n : 2 * n].ravel()).reshape(3, nz)
-        r[:, :n] += weights[:, :n]
-        r[:, n + first : n + first + system.ns] += weights[:, 2 * n :]
-        nu = self._solved_all(matrix, r)
-        found = []
-        for state, each in zip(states, nu, strict=True):
-            system.W[:] = state
-            found.append(self.weights.of_equations(self.phases, each))
-        a, rd = np.array([each.a for each in found]), np.array([each.rd for each in found])
-        g = weights[:, n : 2 * n] + np.array([each.u for each in found]) + w.T @ a
-        rows, y = w.sum(axis=1), self.at_stages[0].copy()
-        y[:n] -= rows @ g
-        y[n : 2 * n] -= rows @ a
-        y[2 * n :] -= rows @ rd
+        r = self._to_unknowns(states, w, weights[:, n : 2 * n])
+        self._add(r, weights[:, :n], weights[:, 2 * n :])
+        sl = self._solved_all(states, w, r)
+        u = weights[:, n : 2 * n] + sl.u
+        places = weights[:, :n] + sl.q
+        self._turn(states, u + w.T @ sl.a, places)
+        y = self.at_stages[0].copy()
+        y[:n] += places.sum(axis=0)
+        y[n : 2 * n] += (u + row.h * self.formula.T @ places).sum(axis=0)
+        y[2 * n :] += (weights[:, 2 * n :] + sl.z[:, self.first :]).sum(axis=0)
         self.bar[0], self.at_stages = y, np.zeros((4, self.w))
 
-    def _stages(self, k: int, row: Row) -> list[np.ndarray]:
-        """Workspaces of the stages of a step."""
+    def _stages(self, k: int, row: Row) -> np.ndarray:
+        """Workspaces of the stages of a step (3, W.size), the matrices at the middle one factored;
+        G at all of them.
+        """
+        system = self.system
         self._put(k)
         self._do(LAY, float(k))
-        found = []
+        self._do(FACTOR_STAGES, row.h)
+        states, self.blocks = np.empty((3, system.W.size)), []
         for stage in STAGES:
             self._do(PUT_STAGE + stage, row.h)
-            found.append(self.system.W.copy())
+            states[stage] = system.W
+            if self.held:
+                system.coef[:] = (1.0, 0.0, 0.0, 0.0, 0.0)
+                self._do(BLOCKS, float(self.phases))
+                self.blocks.append(system.J.copy())
+        return states
+
+    def _to_unknowns(self, states: np.ndarray, w: np.ndarray, u: np.ndarray) -> np.ndarray:
+        """Weights of the unknowns (3, nz) behind those of velocities (3, n)."""
+        found = np.zeros((3, self.system.nz))
+        found[:, : self.n] = w.T @ u
+        self._turn(states, u, found)
+        if self.ties is not None:
+            for each, J, mine in zip(found, self.blocks, self.weight * u, strict=True):
+                each += self.ties.mu(J, mine)
         return found
 
-    def _matrix(self, states: list[np.ndarray], w: np.ndarray) -> tuple[csr_array, csr_array]:
-        """M (3 nz, 3 nz), and how velocities hang on the unknowns of all stages (3 n, 3 nz)."""
-        from scipy.sparse import block_diag, csr_array, eye_array, kron
-
-        n, nz, first, ns = self.n, self.system.nz, self.first, self.system.ns
-        by, local = [], []
-        for state in states:
-            self.system.W[:] = state
-            parts = [self._jacobian(c) for c in ((0, 3), (1,), (2,), (4,))]
-            by.append(parts)
-            local.append(self._local(parts[0]))
-        places = csr_array(eye_array(n, nz))
-        column = np.arange(ns)
-        of_states = csr_array((np.ones(ns), (column, n + first + column)), shape=(ns, nz))
-        motion = csr_array(kron(w, places) + block_diag(local))
-        spread = places.T
-        total = block_diag([p[0] for p in by]) + block_diag([p[1] @ spread for p in by]) @ motion
-        rates = csr_array(kron(w, eye_array(n))) @ motion
-        total = total + block_diag([p[2] @ spread for p in by]) @ rates
-        if ns:
-            total = total + block_diag([p[3] @ of_states.T for p in by]) @ kron(w, of_states)
-        return csr_array(total), motion
-
-    def _jacobian(self, kinds: tuple[int, ...]) -> csr_array:
-        """Derivatives of the equations by what has these coefficients, at the workspace's state."""
-        system = self.system
-        system.coef[:] = 0.0
-        system.coef[[*kinds]] = 1.0
-        self._do(BLOCKS, float(self.phases))
-        return system.sparse_jacobian()
-
-    def _local(self, by_places: csr_array) -> csr_array:
-        """-w x theta + W G^T mu, (n, nz)."""
-        from scipy.sparse import csr_array
-
-        n, nz, hol, system = self.n, self.system.nz, self.system.holonomic, self.system
-        found = csr_array((n, nz))
+    def _turn(self, states: np.ndarray, g: np.ndarray, found: np.ndarray) -> None:
+        """Add w x g of parts."""
         if len(self.phi):
-            omega, rows, columns, values = system.W[self.spin], [], [], []
-            for c, (i, j, sign) in enumerate(_CROSS):
-                rows.append(self.phi[:, i])
-                columns.append(self.phi[:, j])
-                values.append(-sign * omega[:, c // 2])
-            index = (np.concatenate(rows), np.concatenate(columns))
-            found = found + csr_array((np.concatenate(values), index), shape=(n, nz))
-        if self.held:
-            ties = csr_array(by_places[n : n + hol, :n].T.multiply(self.weight[:, None]))
-            mu = csr_array((np.ones(hol), (np.arange(hol), nz - hol + np.arange(hol))), (hol, nz))
-            found = found + ties @ mu
-        return csr_array(found)
+            spun = np.cross(states.take(self.spin, axis=1), g.take(self.phi, axis=1))
+            found[:, self.phi] += spun
 
-    def _solved_all(self, matrix: csr_array, r: np.ndarray) -> np.ndarray:
-        """-nu (3, nz)."""
-        from scipy.sparse.linalg import splu
+    def _add(self, found: np.ndarray, q: np.ndarray, s: np.ndarray) -> None:
+        """Weights of places and states to those of the unknowns."""
+        found[:, : self.n] += q
+        at = self.n + self.first
+        found[:, at : at + self.system.ns] += s
 
-        live, found = self.live, np.zeros(r.size)
-        part: csc_array = matrix[live][:, live].tocsc()
-        try:
-            found[live] = -splu(part).solve(r.ravel()[live], trans="T")
-        except RuntimeError:
-            raise UsageError(SINGULAR) from None
-        return found.reshape(r.shape)
+    def _solved_all(self, states: np.ndarray, w: np.ndarray, r: np.ndarray) -> Slopes:
+        """Slopes (3, .) of -nu . F."""
+        n, end, dead, size = self.n, self.n + self.first, self.system.elimination.dead, 1.0
+        total, found = np.zeros_like(r), Slopes(*[np.zeros(1)] * 5)
+        for _ in range(MOST):
+            r[:, dead] = 0.0
+            self.residuals[:] = r
+            self._do(SOLVE_STAGES)
+            change = -self.residuals
+            change[:, dead] = 0.0
+            total += change
+            sl, last, size = self._more(states, change, found), size, _share(change, total, n)
+            if size * min(1.0, size / last) <= ENOUGH or STALLED * last < size < ROUND_OFF:
+                return found
+            r += self._to_unknowns(states, w, sl.u + w.T @ sl.a)
+            r[:, n:end] += sl.z[:, : self.first]
+            self._add(r, sl.q, sl.z[:, self.first :] + w.T @ sl.rd)
+        raise UsageError(SINGULAR)
+
+    def _more(self, states: np.ndarray, change: np.ndarray, found: Slopes) -> Slopes:
+        """Slopes of an increment, which are added to those that were found."""
+        sl = self.weights.of_stages(self.phases, states, change)
+        for each in fields(Slopes):
+            setattr(found, each.name, getattr(found, each.name) + getattr(sl, each.name))
+        return sl
 
 
-#: Of the entries of w x: row, column and sign, two for each component of w.
-_CROSS = ((1, 2, -1.0), (2, 1, 1.0), (2, 0, -1.0), (0, 2, 1.0), (0, 1, -1.0), (1, 0, 1.0))
+def _share(change: np.ndarray, total: np.ndarray, n: int) -> float:
+    """The largest change against the largest of its kind: of rows of forces, and of the others."""
+    found = 0.0
+    for part in (slice(0, n), slice(n, None)):
+        top = np.abs(total[:, part]).max(initial=0.0)
+        found = max(found, float(np.abs(change[:, part]).max(initial=0.0) / top) if top else 0.0)
+    return found

@@ -15,8 +15,8 @@ discrete adjoint).  Weights of the history of sensitivities, Dbar, become those 
 with r = (ybar_q + (cu - [w])^T ybar_u, 0, ybar_s, G W ybar_u).  As equations depend on psi and y_p
 through y' alone,
 
-    psibar_q = cu (ybar_u - (F_u + cu F_a)^T nu),  psibar_u = -cu F_a^T nu,
-    psibar_s = -cu F_s'^T nu,       y_pbar -= psibar
+    psibar_q = cu g,   g = ybar_u - (F_u + cu F_a)^T nu,
+    psibar_u = -cu F_a^T nu,  psibar_s = -cu F_s'^T nu,  y_pbar = -(ybar + psibar)
 
 References: Griewank, Walther, Evaluating Derivatives, 2008, chapter 15; Cao, Li, Petzold, Serban,
 SIAM J. Sci. Comput. 24 (2003) 1076 (adjoint DAE).
@@ -24,59 +24,40 @@ SIAM J. Sci. Comput. 24 (2003) 1076 (adjoint DAE).
 
 from __future__ import annotations
 
-import ctypes
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.equations.engine import address_of
 from adamslite.errors import UsageError
-from adamslite.integrators.audit_record import (
-    AT_STEP,
-    TAPE_HEAD,
-    TAPE_KIND,
-    TAPE_ORDER,
-    TAPE_RESTARTS,
-    TAPE_STEP,
-    TAPE_TIME,
-)
 from adamslite.integrators.bdf.history import ROWS
 from adamslite.integrators.contract import (
     ACCELERATION,
     ACCELERATIONS,
     DONE,
-    INDEX3,
     OUTPUTS,
     POSITION_ROWS,
-    STABILISED,
 )
 from adamslite.integrators.projection import RATES
-from adamslite.integrators.stepping.output import WITHIN
 from adamslite.kernels.code.workspace import ACCELERATION as ACCELERATION_AT
-from adamslite.kernels.code.workspace import ALPHA, OMEGA
+from adamslite.kernels.code.workspace import ALPHA
 from adamslite.sensitivity.adjoint_columns import Seed
-from adamslite.sensitivity.adjoint_formula import Row, gammas, ties_of, vector_rates, way_of
-from adamslite.sensitivity.adjoint_weights import Numbers, Slopes, Weights
+from adamslite.sensitivity.adjoint_formula import Row, gammas, vector_rates, way_of
+from adamslite.sensitivity.adjoint_tape import SINGULAR, Taken
+from adamslite.sensitivity.adjoint_weights import Numbers, Slopes
 from adamslite.sensitivity.begin import AHEAD
 from adamslite.sensitivity.transposed import (
-    ENTRY,
     FACTOR_RATES,
     FACTOR_STEP,
     SOLVE_RATES,
     SOLVE_STEP,
     TAKE,
-    TRACK,
 )
 
 if TYPE_CHECKING:
     from adamslite.equations.system import System
 
-KIND = ctypes.CFUNCTYPE(
-    ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_double
-)
-SINGULAR = "derivatives are not determined where the equations are singular"
 GRAZES = "an event at t = {t:.6g} only just happens: its time has no derivative"
 # A guard that changes by less than this share of its terms changes by round-off.
 GRAZING = 1e-9
@@ -92,84 +73,20 @@ class Derivatives:
     start: np.ndarray
 
 
-class Sweep:
+class Sweep(Taken):
     """From the end of a taped run to its beginning."""
 
     def __init__(self, system: System) -> None:
-        self.system = system
-        self.weights = Weights(system)
-        self.n, self.first, self.w = system.n, system.m + system.nv, 2 * system.n + system.ns
-        self.held = bool(system.sizes.si2 and system.holonomic)
-        self.phases = STABILISED if self.held else INDEX3
-        self.ties = ties_of(system) if self.held else None
-        problem, plan = system.records()
-        self.native, self.at = KIND(address_of(ENTRY)), (problem.address, plan.address)
-        tape = system.tape
-        self.tape = tape.data[: tape.rows * tape.width].reshape(tape.rows, tape.width)
-        pairs = zip(system.kernels.groups, system.instances.keep[1::2], strict=True)
-        self.memories = [
-            (reals[:-1].reshape(len(each.instances), -1), len(each.instances.columns.params), count)
-            for each, reals in pairs
-            if (count := each.meta["angles"] + each.meta["limits"])
-        ]
-        self.phi, self.spin = self.weights.phi, self.weights.wphi + OMEGA
-        weight = np.array(system.weight, dtype=float)
-        self.weight = np.ones(system.n)
-        self.weight[self.phi] = weight[self.weights.parts][:, None]
-        self.rows = self._rows()
+        super().__init__(system)
         self.bar = np.zeros((ROWS, self.w))
-
-    # ---- the tape -----------------------------------------------------------------------------
-
-    def _rows(self) -> list[Row]:
-        """What happens along the tape."""
-        tape, times = self.tape, self.system.times
-        started = int(np.searchsorted(times, tape[0, TAPE_TIME], "right"))
-        found = [Row(False, float(tape[0, TAPE_TIME]), 0.0, 0, 0.0, False, range(started), ())]
-        fresh, before = True, 0.0
-        for k in range(1, len(tape)):
-            t, h, order = (float(tape[k, at]) for at in (TAPE_TIME, TAPE_STEP, TAPE_ORDER))
-            is_step, first = bool(tape[k, TAPE_KIND] == AT_STEP), found[-1].outputs.stop
-            last = int(np.searchsorted(times, t + WITHIN * h, "right")) if is_step else first
-            row = Row(is_step, t, h, int(order), h if fresh else before, fresh and is_step,
-                      range(first, max(first, last)), self._memory())  # fmt: skip
-            found.append(row)
-            if is_step:
-                fresh, before = False, h
-                if self.memories:
-                    self._put(k)
-                    self._do(TRACK)
-            elif k + 1 < len(tape):
-                fresh = bool(tape[k - 1, TAPE_RESTARTS] != tape[k + 1, TAPE_RESTARTS])
-        return found
-
-    def _memory(self) -> tuple[np.ndarray, ...]:
-        return tuple(reals[:, p : p + count].copy() for reals, p, count in self.memories)
-
-    def _remember(self, memory: tuple[np.ndarray, ...]) -> None:
-        for (reals, p, count), values in zip(self.memories, memory, strict=True):
-            reals[:, p : p + count] = values
-
-    def _workspace(self, k: int) -> np.ndarray:
-        return self.tape[k, TAPE_HEAD : TAPE_HEAD + self.system.W.size]
-
-    def _put(self, k: int) -> None:
-        """The workspace of a row; of the first one with the branches of the second."""
-        self.system.W[:] = self._workspace(k)
-        if k == 0:
-            nw = self.system.nw
-            self.system.W[nw:] = self._workspace(1)[nw:] if len(self.tape) > 1 else 0.0
-
-    def _do(self, task: int, cu: float = 0.0) -> None:
-        if self.native(*self.at, task, cu) != DONE:
-            raise UsageError(SINGULAR)
-
-    # ---- the way back -------------------------------------------------------------------------
 
     def back(self, seeds: Mapping[int, Seed]) -> Derivatives:
         """``seeds``: weights of what was written at output times, by their numbers."""
+        last = max(seeds, default=-1)
         for k in range(len(self.rows) - 1, 0, -1):
             row = self.rows[k]
+            if row.outputs.start > last:
+                continue  # nothing was asked for from here on
             self._remember(row.memory)
             if not row.is_step:
                 self._event(k)
@@ -204,12 +121,17 @@ class Sweep:
         """One step."""
         way = way_of(row.order, row.h / row.h_before)
         self._put(k)
-        psi = self._corrector(row, way.own @ self.bar)
+        psi, y = self._corrector(row, way.own @ self.bar)
         self.bar = way.past @ self.bar
-        self.bar[: row.order + 1] += way.rate[:, None] * psi
+        self.bar[: row.order + 1] += way.rate[:, None] * psi + way.level[:, None] * y
 
-    def _corrector(self, row: Row, y: np.ndarray) -> np.ndarray:
-        """Weights of psi from those of y; those of y_p are their opposite."""
+    def _corrector(self, row: Row, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Weights of psi, and of y_p, from those of y.
+
+        The latter are -(psibar + ybar) by y' alone.  Weights of differences of small steps behind
+        which the steps grow are large, by their power of that growth, and so would be the round-off
+        of that sum; by N^T nu = r, of places q and states it is sl.q + w x g and sl.s.
+        """
         system, n, first, phi = self.system, self.n, self.first, self.phi
         cu = float(gammas(row.order)[-1] / row.h)
         self._do(FACTOR_STEP, cu)
@@ -222,11 +144,14 @@ class Sweep:
         if self.ties is not None:
             F[: system.nz] += self.ties.mu(system.J, self.weight * yu)
         sl = self.weights.of_equations(self.phases, self._solved(SOLVE_STEP))
-        psi = np.empty(self.w)
-        psi[:n] = cu * (yu + sl.u + cu * sl.a)
-        psi[n : 2 * n] = cu * sl.a
-        psi[2 * n :] = cu * sl.rd
-        return psi
+        psi, found = np.empty(self.w), np.empty(self.w)
+        g = yu + sl.u + cu * sl.a
+        psi[:n], psi[n : 2 * n], psi[2 * n :] = cu * g, cu * sl.a, cu * sl.rd
+        found[:n], found[2 * n :] = sl.q, sl.z[first:]
+        if len(phi):
+            found[phi] += np.cross(system.W[self.spin], g[phi])
+        found[n : 2 * n] = sl.u + (found[:n] + y[:n]) / cu
+        return psi, found
 
     def _solved(self, task: int) -> np.ndarray:
         """-nu of the weights in F."""

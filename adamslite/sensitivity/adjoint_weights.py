@@ -39,6 +39,11 @@ def _called(address: int) -> Any:
     return KIND(address) if address else None
 
 
+def _stacked(vectors: np.ndarray) -> np.ndarray:
+    """Vectors of bodies at several states (., nb, 3), at one of them too."""
+    return vectors.reshape(-1, *vectors.shape[-2:])
+
+
 KIND = ctypes.CFUNCTYPE(None, ctypes.c_int64, *[ctypes.c_void_p] * 6)
 THREE = np.arange(3)
 
@@ -129,7 +134,16 @@ class Weights:
         """Slopes of weights . F at the state in the workspace: kernels of ``phases``, inertia."""
         self._run(phases, weights)
         slopes = self._collected()
-        self._inertia(weights, slopes)
+        self._inertia(weights, slopes, self.system.W)
+        return slopes
+
+    def of_stages(self, phases: int, states: np.ndarray, weights: np.ndarray) -> Slopes:
+        """The same at several workspaces (3, W.size), of weights (3, nz): slopes (3, .)."""
+        G = np.zeros((len(states), self.slopes_of_w.size))
+        for state, nu, target in zip(states, weights, G, strict=True):
+            self._run(phases, nu, state, target)
+        slopes = self._collected(G)
+        self._inertia(weights, slopes, states)
         return slopes
 
     def of_rows(self, phases: int, weights: np.ndarray) -> Slopes:
@@ -146,7 +160,7 @@ class Weights:
         for _, _, call, (count, ints, reals, target) in self.calls:
             if call:
                 call(count, ints, reals, w, nu, g, target)
-        self._signals()
+        self._signals(w, G)
         return self._collected(), float(G[TIME])
 
     def of_outputs(self, phases: int, weights: np.ndarray, places: Mapping[int, float]) -> Slopes:
@@ -156,20 +170,30 @@ class Weights:
             self.slopes_of_w[place] += weight
         return self._collected()
 
-    def _run(self, phases: int, weights: np.ndarray) -> None:
-        G = self.slopes_of_w
-        G[:] = 0.0
-        w, nu, g = self.system.W.ctypes.data, weights.ctypes.data, G.ctypes.data
+    def _run(
+        self,
+        phases: int,
+        weights: np.ndarray,
+        state: np.ndarray | None = None,
+        target: np.ndarray | None = None,
+    ) -> None:
+        """Kernels of the phases, at the workspace or another ``state``, into ``target`` (zeros)."""
+        G, W = target, self.system.W if state is None else state
+        if G is None:
+            G = self.slopes_of_w
+            G[:] = 0.0
+        w, nu, g = W.ctypes.data, weights.ctypes.data, G.ctypes.data
         if phases not in self.active:
             self.active[phases] = [(call, g) for own, call, _, g in self.calls if own & phases]
-        for call, (count, ints, reals, target) in self.active[phases]:
-            call(count, ints, reals, w, nu, g, target)
+        for call, (count, ints, reals, into) in self.active[phases]:
+            call(count, ints, reals, w, nu, g, into)
         if self.of_time:
-            self._signals()
+            self._signals(w, G)
 
-    def _signals(self) -> None:
-        """Variables of time: each before those that it reads."""
-        G, w = self.slopes_of_w, self.system.W.ctypes.data
+    def _signals(self, w: int, G: np.ndarray) -> None:
+        """Variables of time, at the workspace of the address ``w``: each before those that it
+        reads.
+        """
         for k in range(len(self.calls) - 1, -1, -1):
             own, call, _, (count, ints, reals, target) = self.calls[k]
             if not own & SIGNALS or call is None:
@@ -180,41 +204,46 @@ class Weights:
                 g = G.ctypes.data
                 call(1, ints + n * n_ints, reals + n * n_reals, w, g, g, target + n * n_reals)
 
-    def _collected(self) -> Slopes:
-        G = self.slopes_of_w
-        q, u, a = (G.take(places) for places in self.from_w)
-        return Slopes(q, u, a, G.take(self.scalar), G.take(self.rate))
+    def _collected(self, G: np.ndarray | None = None) -> Slopes:
+        """Slopes of the workspace's entries, or of those of several workspaces (3, .), sorted."""
+        G = self.slopes_of_w if G is None else G
+        q, u, a = (G.take(places, axis=-1) for places in self.from_w)
+        return Slopes(q, u, a, G.take(self.scalar, axis=-1), G.take(self.rate, axis=-1))
 
-    def _inertia(self, weights: np.ndarray, slopes: Slopes) -> None:
-        """M (a - gravity), and what turns."""
-        system, W = self.system, self.system.W
-        slopes.a += self.heavy * weights[: system.n]
-        nu, a = weights.take(self.x), W.take(self.wx + ACCELERATION) - system.gravity
-        self.numbers.mass += np.einsum("bi,bi->b", nu, a)
-        self.numbers.gravity -= system.mass @ nu
+    def _inertia(self, weights: np.ndarray, slopes: Slopes, W: np.ndarray) -> None:
+        """M (a - gravity), and what turns; with a leading axis for several states ``W``."""
+        system = self.system
+        slopes.a += self.heavy * weights[..., : system.n]
+        nu = weights.take(self.x, axis=-1)
+        a = W.take(self.wx + ACCELERATION, axis=-1) - system.gravity
+        self.numbers.mass += _stacked(nu * a).sum(axis=(0, 2))
+        self.numbers.gravity -= system.mass @ _stacked(nu).sum(axis=0)
         if len(self.phi):
-            self._spin(weights, slopes)
+            self._spin(weights, slopes, W)
 
-    def _spin(self, weights: np.ndarray, slopes: Slopes) -> None:
+    def _spin(self, weights: np.ndarray, slopes: Slopes, W: np.ndarray) -> None:
         """J al + w x J w."""
-        system, W = self.system, self.system.W
-        turn, alpha, omega = weights[self.phi], W[self.wphi + ALPHA], W[self.wphi + OMEGA]
-        attitude = W[self.wphi[:, :1] + ATTITUDE + np.arange(9)].reshape(-1, 3, 3)
-        own = system.inertia.reshape(-1, 3, 3)[self.parts]
-        J = attitude @ own @ attitude.transpose(0, 2, 1)
+        alpha, omega = (W.take(self.wphi + at, axis=-1) for at in (ALPHA, OMEGA))
+        turn, places = weights.take(self.phi, axis=-1), self.wphi[:, :1] + ATTITUDE + np.arange(9)
+        attitude = W.take(places, axis=-1).reshape(*turn.shape[:-1], 3, 3)
+        own = self.system.inertia.reshape(-1, 3, 3)[self.parts]
+        J = attitude @ own @ attitude.swapaxes(-1, -2)
 
         def times(v: np.ndarray) -> np.ndarray:
-            return np.einsum("bij,bj->bi", J, v)
+            return np.einsum("...bij,...bj->...bi", J, v)
 
         cross = np.cross
         spun = cross(turn, omega)
         h, hs, hn = times(omega), times(spun), times(turn)
-        slopes.a[self.phi] += hn
-        slopes.u[self.phi] += cross(h, turn) + hs
-        slopes.q[self.phi] += (
+        slopes.a[..., self.phi] += hn
+        slopes.u[..., self.phi] += cross(h, turn) + hs
+        slopes.q[..., self.phi] += (
             cross(times(alpha), turn) + cross(hn, alpha) + cross(h, spun) + cross(hs, omega)
         )
-        inside = [np.einsum("bji,bj->bi", attitude, v) for v in (turn, alpha, spun, omega)]
-        both = np.einsum("bi,bj->bij", inside[0], inside[1])
-        both += np.einsum("bi,bj->bij", inside[2], inside[3])
+        inside = [
+            _stacked(np.einsum("...bji,...bj->...bi", attitude, v))
+            for v in (turn, alpha, spun, omega)
+        ]
+        both = np.einsum("sbi,sbj->bij", inside[0], inside[1])
+        both += np.einsum("sbi,sbj->bij", inside[2], inside[3])
         self.numbers.inertia[self.parts] += both

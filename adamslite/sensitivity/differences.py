@@ -124,10 +124,12 @@ def predict(S: Forward, number: int, order: int) -> None:
 @native
 def accept(P: Problem, S: Forward, number: int, order: int) -> None:
     """Extend the history by the sensitivities in ``S.y``."""
-    w = S.width
+    w, n = S.width, P.sizes.n
     yp, change, y = S.y[0:], S.y[w:], S.y[2 * w :]
-    for i in range(w):
+    for i in range(n, w):
         change[i] = y[i] - yp[i]
+    for i in range(n):
+        change[i] = S.v[i]  # y - y_p has round-off of y, which longer steps enlarge
     note_error(P, S, number, y, change, order)
     extend_history(S.history[number * S.room :], change, w, order)
 

@@ -155,7 +155,8 @@ def solve_stages(P: Problem, L: Plan, D: Tangents, S: Forward, number: int, h: f
         size = apply(P, H, w)
         reach = max(scale(P, H, 0, P.sizes.n), scale(P, H, 2 * P.sizes.n, w))
         small = min(reach, h * scale(P, H, P.sizes.n, w))
-        if size <= max(SHARE * P.settings.error * small, LEAST * reach):
+        enough = 0.0 if S.exact else SHARE * P.settings.error * small
+        if size <= max(enough, LEAST * reach):
             motion(P, S, H, h)
             return turn + 1
         if turn > 1 and not size < STALLED * last:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -225,10 +226,16 @@ class Study:
 
     def _scale(self, number: Named) -> float:
         """What a zero is small against: the numbers beside it."""
-        label = number.name.partition("[")[0]
-        numbers = variable_of(self.deck.base or self.deck).numbers.named.values()
-        beside = [abs(each.value) for each in numbers if each.name.partition("[")[0] == label]
-        return max(beside, default=0.0) or 1.0
+        return self.scales[number.name.partition("[")[0]] or 1.0
+
+    @cached_property
+    def scales(self) -> dict[str, float]:
+        """The largest of the numbers beside each other, by what they have in common."""
+        found: dict[str, float] = {}
+        for each in variable_of(self.deck.base or self.deck).numbers.named.values():
+            label = each.name.partition("[")[0]
+            found[label] = max(found.get(label, 0.0), abs(each.value))
+        return found
 
 
 def sensitivities(

@@ -6,18 +6,27 @@ from adamslite.integrators.accelerations import acceleration_matrix
 from adamslite.integrators.audit_record import TAPE_HEAD, TAPE_STEP, TAPE_TIME
 from adamslite.integrators.contract import DONE, SINGULAR_MASS, Problem
 from adamslite.integrators.linalg.blocks import factor
+from adamslite.integrators.linalg.complex_transposed import solve_transposed_complex
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.linalg.transposed import solve_transposed
 from adamslite.integrators.motion_equations import jacobian, track
+from adamslite.integrators.radau.coefficients import TO_MODES, TO_STAGES
 from adamslite.integrators.radau.control import Control
-from adamslite.integrators.radau.stages import put_stage
+from adamslite.integrators.radau.history import Z_ROWS
+from adamslite.integrators.radau.stages import (
+    put_stage,
+    radau_jacobian,
+    radau_matrices,
+    stage_z,
+)
 from adamslite.native.translate import Reals, copy, native
 from adamslite.sensitivity.corrector import matrix
 from adamslite.sensitivity.rates import take_state
 
 ENTRY = "adamslite.sensitivity.transposed.transposed"
 # What is to be done.
-FACTOR_STEP, SOLVE_STEP, FACTOR_RATES, SOLVE_RATES, TAKE, TRACK, BLOCKS, LAY, PUT_STAGE = range(9)
+FACTOR_STEP, SOLVE_STEP, FACTOR_RATES, SOLVE_RATES, TAKE, TRACK, BLOCKS, LAY = range(8)
+FACTOR_STAGES, SOLVE_STAGES, PUT_STAGE = 8, 9, 10
 
 
 @native
@@ -28,17 +37,18 @@ def transposed(P: Problem, L: Plan, task: int, cu: float) -> int:
     accelerations; SOLVE_STEP, SOLVE_RATES: replace F by the solution of the transposed system;
     TAKE: the state into the unknowns; TRACK: let kernels remember their angles; BLOCKS: the
     Jacobian of phases ``cu`` with the coefficients in place; LAY: the history of the step with the
-    row ``cu`` of the tape; PUT_STAGE and the next two: a stage of it, of a step of size ``cu``.
+    row ``cu`` of the tape; FACTOR_STAGES: both matrices at its middle stage, for a step of size
+    ``cu``; SOLVE_STAGES: the transposed increments of its stages in the place of their residuals;
+    PUT_STAGE and the next two: a stage of it, of a step of size ``cu``.
     """
-    if task == FACTOR_STEP:
-        return DONE if matrix(P, L, cu) else SINGULAR_MASS
-    if task == FACTOR_RATES:
-        acceleration_matrix(P)
-        return DONE if factor(L, P.LA, P.pivots_a, P.work) else SINGULAR_MASS
+    if task == FACTOR_STEP or task == FACTOR_RATES or task == FACTOR_STAGES:
+        return DONE if factored(P, L, task, cu) else SINGULAR_MASS
     if task == SOLVE_STEP:
         solve_transposed(L, P.LV, P.pivots, P.F, P.x, P.work)
     elif task == SOLVE_RATES:
         solve_transposed(L, P.LA, P.pivots_a, P.F, P.x, P.work)
+    elif task == SOLVE_STAGES:
+        transposed_increments(P, L)
     elif task == TAKE:
         take_state(P)
     elif task == TRACK:
@@ -53,6 +63,18 @@ def transposed(P: Problem, L: Plan, task: int, cu: float) -> int:
 
 
 @native
+def factored(P: Problem, L: Plan, task: int, cu: float) -> bool:
+    """Factor what is asked for; False when it is singular."""
+    if task == FACTOR_STEP:
+        return matrix(P, L, cu)
+    if task == FACTOR_RATES:
+        acceleration_matrix(P)
+        return factor(L, P.LA, P.pivots_a, P.work)
+    radau_jacobian(P, L, cu)
+    return radau_matrices(P, L, cu)
+
+
+@native
 def lay(P: Problem, here: Reals) -> None:
     """The history of a step by stages from its row of the tape."""
     C = Control(P.control)
@@ -60,3 +82,26 @@ def lay(P: Problem, here: Reals) -> None:
     behind = TAPE_HEAD + P.W.size
     copy(P.base, here[behind:], 9 * P.sizes.nb)
     copy(P.history, here[behind + 9 * P.sizes.nb :], P.tape.kept)
+
+
+@native
+def transposed_increments(P: Problem, L: Plan) -> None:
+    """The transpose of :func:`adamslite.integrators.radau.stages.stage_increments`: a real matrix
+    (A, -B; B, A) of the complex one A + i B becomes (A^T, B^T; -B^T, A^T), that of A^T - i B^T.
+    """
+    nz, X = P.sizes.nz, P.tableau
+    R = P.history[stage_z(P, Z_ROWS) :]
+    pair, spare = R[3 * nz :], R[5 * nz :]
+    for k in range(nz):
+        a, b, c = R[k], R[nz + k], R[2 * nz + k]
+        o, e, s = TO_STAGES, TO_STAGES + 3, TO_STAGES + 6
+        P.F[k] = X[o] * a + X[e] * b + X[s] * c
+        pair[2 * k] = X[o + 1] * a + X[e + 1] * b + X[s + 1] * c
+        pair[2 * k + 1] = 0.0 - (X[o + 2] * a + X[e + 2] * b + X[s + 2] * c)
+    solve_transposed(L, P.LV, P.pivots, P.F, P.x, P.work)
+    solve_transposed_complex(L, P.LC, P.pivots_c, pair, spare, P.work)
+    for k in range(nz):
+        a, b, c = P.F[k], pair[2 * k], 0.0 - pair[2 * k + 1]
+        for stage in range(3):
+            o = TO_MODES + stage
+            R[stage * nz + k] = X[o] * a + X[o + 3] * b + X[o + 6] * c
