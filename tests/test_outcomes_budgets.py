@@ -13,6 +13,8 @@ from scenes import GROUND, chain, done, run
 
 import adamslite as al
 from adamslite import Outcome
+from adamslite.analyses.output_times import spread_times
+from adamslite.analyses.worker import Worker
 from adamslite.cli.main import main
 from adamslite.errors import UsageError
 from adamslite.integrators.stepping.budget import MOST_CREPT
@@ -189,3 +191,39 @@ def test_every_run_of_a_sweep_has_its_limits() -> None:
         end=1.0, steps=5, max_steps=100, integrator="RADAU", workers=1,
     )  # fmt: skip
     assert list(found.outcomes) == ["DONE", "STEP_LIMIT"]
+
+
+# Masses between stiff springs that fall for ever: an equilibrium is looked for for minutes.
+LOOSE = GROUND + "ACCGRAV/JGRAV=-9.81\n"
+for k in range(2, 602):
+    x, y, z = k * 7919 % 13 * 0.05, k * 104729 % 17 * 0.05, k * 31 % 7 * 0.03
+    LOOSE += f"POINT_MASS/{k}, MASS=1, CM={k}, QG={x},{y},{z}\nMARKER/{k}, POINT_MASS={k}\n"
+    LOOSE += f"SPRINGDAMPER/{k}, TRANSLATIONAL, I={k}, J={max(3, k) - 1}, K=1E7, LENGTH=0.1\n"
+LOOSE = LOOSE.replace("I=2, J=2", "I=2, J=3") + (
+    "SIMULATE/INITIAL_CONDITIONS\nSIMULATE/STATIC\nEND\n"
+)
+
+
+def test_a_search_for_an_equilibrium_keeps_within_its_cpu() -> None:
+    results = al.simulate(al.read(LOOSE), cpu_limit=0.5)
+    assert results.outcome is Outcome.CPU_LIMIT and results.time.tolist() == [0.0]
+
+
+def test_a_search_for_an_equilibrium_can_be_interrupted(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What the command before it gave is kept."""
+    wait = Worker.wait
+
+    def asked(self: Worker, timeout: float) -> None:
+        wait(self, timeout)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Worker, "wait", asked)
+    results = al.simulate(al.read(LOOSE))
+    assert results.outcome is Outcome.INTERRUPTED and results.time.tolist() == [0.0]
+
+
+@pytest.mark.parametrize("steps", [1, 7, 70_000, 200_000])
+def test_output_times_are_made_some_at_a_time(steps: int) -> None:
+    for start, end in ((0.0, 1.0), (0.3, 7e5), (0.0, 1e-300), (2.0, 2.0)):
+        made = spread_times(start, end, steps, None)
+        np.testing.assert_array_equal(made, np.linspace(start, end, steps + 1))

@@ -49,6 +49,9 @@ JUDGED, LATER = 1_000, 2
 # A decay in so much less time than a step holds steps of an explicit formula down, which is stable
 # up to 6 or so; where accuracy limits steps they are shorter than a decay.
 HELD_DOWN = 2.0
+# Numbers of results from which on it takes a while to keep them, and what is said then.
+MANY = 5_000_000
+ENDING = "interrupted: what there is will be written, which takes a while; Ctrl-C ends that, too"
 # How a run may end before a motion that jumps, or gets ever faster.
 CLOSE = (Outcome.DONE, Outcome.STEP_TOO_SMALL, Outcome.NEWTON_FAILED, Outcome.CREEPING)
 # Error estimates from here on stand for not-a-number.
@@ -364,6 +367,8 @@ def _watch(
             elif progress and running.works:
                 progress.watch(look())
         except KeyboardInterrupt:
+            if progress and system.count.records * system.nw > MANY:
+                progress.say(ENDING)
             if outlet:
                 outlet.interrupt()
             else:

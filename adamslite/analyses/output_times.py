@@ -70,7 +70,22 @@ def spread_times(start: float, end: float, steps: int | None, dtout: float | Non
         steps = max(1, round(whole))
         if abs(steps - whole) > ROUND_OFF * max(1.0, whole):
             return np.append(np.arange(start, end - ROUND_OFF * dtout, dtout), end)
-    return np.linspace(start, end, (steps or STEPS) + 1)
+    return _even_times(start, end, steps or STEPS)
+
+
+def _even_times(start: float, end: float, steps: int) -> np.ndarray:
+    """The bits of ``numpy.linspace(start, end, steps + 1)``, some at a time, so that the user can
+    interrupt it.
+    """
+    step = (end - start) / steps
+    if steps < PART or step == 0.0:
+        return np.linspace(start, end, steps + 1)
+    times = np.empty(steps + 1)
+    for first in range(0, steps + 1, PART):
+        part = np.arange(first, min(first + PART, steps + 1), dtype=float)
+        times[first : first + PART] = part * step + start
+    times[-1] = end
+    return times
 
 
 def _need_span(start: float, end: float, steps: int | None, dtout: float | None) -> None:

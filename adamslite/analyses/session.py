@@ -304,7 +304,7 @@ class Session(SessionState):
             system.settings.t = time
             system.start_record(np.array([time]))
             pivoted = partial(self.renumbered, system, True)
-            self.outcome, self.ways_to_fall = at_rest(system, self.statics, pivoted)
+            self.outcome, self.ways_to_fall = at_rest(system, self.statics, pivoted, self.budget)
             self.time = float(time)
             system.report.t = time
             if self.outcome is Outcome.DONE:

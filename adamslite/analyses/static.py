@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from math import pi
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from adamslite.analyses.worker import interrupted
 from adamslite.equations.engine import ints
 from adamslite.integrators import contract
 from adamslite.integrators.contract import EQUILIBRIUM, JACOBIAN, STATIC
@@ -16,11 +18,14 @@ from adamslite.integrators.equilibrium_control import Control
 from adamslite.results.outcomes import Outcome
 
 if TYPE_CHECKING:
+    from adamslite.analyses.run_options import Budget
     from adamslite.equations.system import System
 
 # Matrices up to this many unknowns may be eliminated densely when the block order meets a singular
 # pivot.
 PIVOTING = 3000
+# Unknowns from which on a search may take seconds, and can be interrupted.
+SLOW = 300
 # Short increments: of the model, and angles [rad].
 SHORT = 0.01
 # Unknowns up to which a count of unstable motions is confirmed by eigenvalues.
@@ -49,7 +54,7 @@ class StaticSettings:
 
 
 def at_rest(
-    system: System, settings: StaticSettings, pivoted: Callable[[], System]
+    system: System, settings: StaticSettings, pivoted: Callable[[], System], budget: Budget
 ) -> tuple[Outcome, int]:
     """Move ``system`` to an equilibrium; with the number of ways in which it is unstable.
 
@@ -67,22 +72,23 @@ def at_rest(
     )
     # ALIMIT and TLIMIT are those of bodies; increments of states have none.
     for limits in (settings, short)[: 1 + bool(len(system.mass))]:
-        outcome = run_static(system, limits)
-        if outcome is Outcome.DONE:
+        outcome = run_static(system, limits, budget)
+        if outcome is not Outcome.NO_EQUILIBRIUM:
             return outcome, system.report.ways_to_fall
         for array, before in start:
             array[:] = before
     if system.elimination.pivoting or system.nz > PIVOTING:
         return outcome, system.report.ways_to_fall
     spare = pivoted()
-    outcome = run_static(spare, settings)
+    outcome = run_static(spare, settings, budget)
     system.adopt(spare)
     system.count.add(spare.count)
     return outcome, spare.report.ways_to_fall
 
 
-def run_static(system: System, settings: StaticSettings) -> Outcome:
+def run_static(system: System, settings: StaticSettings, budget: Budget) -> Outcome:
     """Move ``system`` to an equilibrium at its present time; states with STATIC_HOLD stay."""
+    run = system.settings
     system.make_room(control=Control.slots)
     C = Control(system.control)
     C[:] = 0
@@ -91,7 +97,16 @@ def run_static(system: System, settings: StaticSettings) -> Outcome:
     system.pattern = ints([word == "T" for word in settings.pattern])
     C.length = model_size(system)
     system.elimination.freeze(system.held_states)
-    outcome = system.run(EQUILIBRIUM)
+    run.stop = False
+    search = partial(system.run, EQUILIBRIUM)
+    if system.nz < SLOW:
+        outcome = search()
+    else:
+        outcome = interrupted(
+            search, partial(setattr, run, "stop", True), lambda: budget.out_of_time
+        )
+    if run.stop:
+        return Outcome.CPU_LIMIT
     if system.report.ways_to_fall != 0:
         system.report.ways_to_fall = ways_to_fall(system, settings.stability)
     return Outcome.DONE if outcome == contract.DONE else Outcome.NO_EQUILIBRIUM

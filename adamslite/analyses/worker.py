@@ -5,6 +5,9 @@ from __future__ import annotations
 from _thread import allocate_lock, start_new_thread
 from collections.abc import Callable
 
+# Time between two looks at a call that can be ended [s].
+LOOK = 0.1
+
 
 class Worker:
     """A call that has begun.
@@ -49,3 +52,25 @@ class Worker:
         if self._fault is not None:
             raise self._fault
         return self._result
+
+
+def interrupted(call: Callable[[], int], stop: Callable[[], None], over: Callable[[], bool]) -> int:
+    """What a call returns that ``stop`` ends early: when it is ``over``, or the user interrupts.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        After the call has returned, when the user has.
+    """
+    running, asked = Worker(call), False
+    while running.works:
+        try:
+            running.wait(LOOK)
+            if over():
+                stop()
+        except KeyboardInterrupt:
+            asked = True
+            stop()
+    if asked:
+        raise KeyboardInterrupt
+    return running.result()

@@ -64,6 +64,8 @@ def newton(P: Problem, L: Plan) -> bool:
     C.sigma, C.found = C.stability, False
     renews = True
     for iteration in range(C.maxit):
+        if P.settings.stop:
+            return False
         if not static_step(P, L, renews):
             C.sigma, renews = max(10.0 * C.sigma, LEAST_SIGMA), True
         elif settled(P):
@@ -81,6 +83,8 @@ def relaxed(P: Problem, L: Plan) -> bool:
     C.sigma = first_sigma(P)
     last, signs = HUGE, pivot_signs(P, L, SMALL, 1.0)
     for _iteration in range(RELAXATIONS):
+        if P.settings.stop:
+            return False
         if signs >= 0 and pivot_signs(P, L, 1.0, C.sigma) != signs:
             # Too long a step: it would go uphill, to an unstable equilibrium.
             C.sigma *= UPHILL

@@ -50,3 +50,6 @@ class AnalysisProgress(Progress):
         self._seen = self._now()
         steps = self._steps() + state.steps
         self._progress.watch(replace(state, start=self._start, end=self._end, steps=steps))
+
+    def say(self, sentence: str) -> None:
+        self._progress.say(sentence)

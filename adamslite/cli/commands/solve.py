@@ -75,10 +75,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Solve and write; return the exit code."""
     from adamslite.errors import UsageError
-    from adamslite.progress import Progress, TalkingProgress
-    from adamslite.result_files import adams_files, plan
+    from adamslite.result_files import plan
     from adamslite.results.formats import format_of
-    from adamslite.scene import load_scene, run_scene
+    from adamslite.scene import load_scene
 
     part = _resumed(args)
     if args.output == STDOUT and args.summary == "json":
@@ -96,6 +95,27 @@ def run(args: argparse.Namespace) -> int:
         _tell_warnings(scene)
     journal = _journal(args, scene, output, part)
     _end_by_signals()
+    try:
+        return _solved(args, scene, output, files, page, journal)
+    except KeyboardInterrupt:
+        if journal:
+            _keep(journal)
+        raise
+
+
+def _solved(
+    args: argparse.Namespace,
+    scene: "Scene",
+    output: str,
+    files: Sequence[Path],
+    page: Path | None,
+    journal: "Journal | None",
+) -> int:
+    """Solve and write what was planned; return the exit code."""
+    from adamslite.progress import Progress, TalkingProgress
+    from adamslite.result_files import adams_files
+    from adamslite.scene import run_scene
+
     progress = Progress() if args.quiet else TalkingProgress()
     try:
         path = None if output == STDOUT else Path(output)
@@ -165,9 +185,16 @@ def _close(journal: "Journal", results: "Results") -> None:
     """The file of the run stays when it was interrupted, and can go on."""
     from adamslite.results.outcomes import Outcome
 
-    interrupted = results.outcome is Outcome.INTERRUPTED
-    journal.close(keep=interrupted)
-    if interrupted and journal.part:
+    if results.outcome is Outcome.INTERRUPTED:
+        _keep(journal)
+    else:
+        journal.close(keep=False)
+
+
+def _keep(journal: "Journal") -> None:
+    """Leave the file of the run, if it has one, and say so."""
+    journal.close(keep=True)
+    if journal.part:
         sys.stderr.write(f"adamslite: `adamslite solve --resume {journal.path}` goes on with it\n")
 
 
