@@ -102,9 +102,8 @@ def run_static(system: System, settings: StaticSettings, budget: Budget) -> Outc
     if system.nz < SLOW:
         outcome = search()
     else:
-        outcome = interrupted(
-            search, partial(setattr, run, "stop", True), lambda: budget.out_of_time
-        )
+        stop = partial(setattr, run, "stop", True)
+        outcome = interrupted(search, stop, lambda: budget.out_of_time)
     if run.stop:
         return Outcome.CPU_LIMIT
     if system.report.ways_to_fall != 0:
