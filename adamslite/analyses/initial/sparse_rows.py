@@ -121,7 +121,9 @@ def _blocks(system: System, speeds: bool) -> Iterator[tuple[int, ...]]:
         elif key not in held or key in velocity:
             continue
         at = system.node_at[key]
-        below, above = offsets[at, column], offsets[column, at]
+        below, above = offsets.get((at, column)), offsets.get((column, at))
+        if below is None or above is None:  # the row takes the place of a body, not its velocity
+            continue
         size = system.widths[row], system.widths[column]
         yield source, below, above, starts[at] - system.n, starts[column], *size
 
