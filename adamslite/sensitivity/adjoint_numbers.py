@@ -15,11 +15,11 @@ import numpy as np
 
 from adamslite.kernels.groups import LEVELS
 from adamslite.language.diagnostics import DeckError
-from adamslite.language.traced import WRITTEN, Recipe, Traced, places
+from adamslite.language.traced import Recipe, Traced, places
 from adamslite.model.model import PART
 from adamslite.sensitivity.adjoint_sweep import Derivatives
 from adamslite.sensitivity.directions import SHARE, Snapshot
-from adamslite.sensitivity.recipes import slope
+from adamslite.sensitivity.recipes import by_value, written_in
 from adamslite.variation.decks import variable_of
 from adamslite.variation.kernels import Refill, of_deck
 
@@ -49,9 +49,7 @@ class Chain:
         if self.kernels.refill is None:
             self.kernels.refill = Refill(self.kernels, self.variable)
         self.refill: Refill = self.kernels.refill
-        given = (self.variable.numbers.named[name.upper()] for name in deck.values)
-        changed = {each.at: each.digits(deck.values[each.name]) for each in given}
-        self.written = {**self.variable.written, **changed}
+        self.written = written_in(deck)
         self.settled = set().union(*(places(recipe) for _, recipe in self.refill.settled))
         self.faces = [group.face for group in self.kernels.groups]
         self.clocked = any(
@@ -121,7 +119,7 @@ class Chain:
 
     def _along(self, derivatives: Derivatives, each: Named) -> float:
         if self.is_direct(each):
-            return each.digits(1.0) * self._direct(derivatives, each)
+            return self._direct(derivatives, each)
         body = self._body_of(each)
         if body >= 0:
             return self._of_body(derivatives, each, body)
@@ -130,9 +128,7 @@ class Chain:
     def _direct(self, derivatives: Derivatives, each: Named) -> float:
         total = 0.0
         for k, n, row, recipe in self.uses[each.at]:
-            factor = 1.0
-            if recipe != (WRITTEN, each.at):
-                factor = slope(recipe, self.written, each.at)
+            factor = by_value(recipe, self.written, each)
             total += factor * derivatives.numbers.reals[k][row, n]
         return total
 
@@ -186,7 +182,7 @@ class Chain:
         own = self.variable.numbers.deck.own[number]
         value = getattr(own, name)
         if name == "mass" and own.keyword == "POINT_MASS" and type(value) is Traced:
-            factor = each.digits(1.0) * slope(value.recipe, self.written, each.at)
+            factor = by_value(value.recipe, self.written, each)
             return float(factor * derivatives.numbers.mass[b] / model.deck.ucf)
         here = model.body_of(cast("Part", self.variable.deck.own[number]))
         for share, weight in AROUND.items():

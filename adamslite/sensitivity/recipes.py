@@ -42,6 +42,13 @@ def slope(recipe: Any, written: Mapping[int, float], at: int) -> float:
     return RULES[recipe[0]](values, [slope(each, written, at) for each in recipe[1:]])
 
 
+def by_value(recipe: Any, written: Mapping[int, float], number: Named) -> float:
+    """The same by the value of a number, which is what its digits mean."""
+    if recipe == (WRITTEN, number.at):
+        return number.digits(1.0)
+    return number.digits(1.0) * slope(recipe, written, number.at)
+
+
 def _powered(v: list[float], d: list[float]) -> float:
     found = v[1] * math.pow(v[0], v[1] - 1.0) * d[0] if d[0] else 0.0
     return found + (math.pow(v[0], v[1]) * math.log(v[0]) * d[1] if d[1] else 0.0)
@@ -56,6 +63,14 @@ RULES: dict[Any, Callable[[list[float], list[float]], float]] = {
     operator.truediv: lambda v, d: (d[0] - v[0] / v[1] * d[1]) / v[1],
     math.pow: _powered,
 }
+
+
+def written_in(deck: Deck) -> dict[int, float]:
+    """By their places in the text: the values of all numbers of a deck, as digits."""
+    variable = variable_of(deck.base or deck)
+    named = (variable.numbers.named[name.upper()] for name in deck.values)
+    given = {each.at: each.digits(deck.values[each.name]) for each in named}
+    return {**variable.written, **given}
 
 
 def alone(deck: Deck) -> set[str]:
@@ -73,9 +88,7 @@ class Known:
         self.refill: Refill | None = kernels.refill
         self.alone = alone(deck)
         self.faces = [group.face for group in kernels.groups]
-        named = (self.variable.numbers.named[name.upper()] for name in deck.values)
-        given = {each.at: each.digits(deck.values[each.name]) for each in named}
-        self.written = {**self.variable.written, **given}
+        self.written = written_in(deck)
 
     def is_load(self, number: Named) -> bool:
         """Whether a number is in parameters of loads and of what is written, and nowhere else."""
@@ -112,7 +125,7 @@ class Known:
             reals = system.instances.keep[2 * k + 1].size - 1
             into = rows.setdefault(k, np.zeros((count, reals // count)))
             for row, recipe in self.refill.entries[k, n]:
-                into[row, n] = number.digits(1.0) * slope(recipe, self.written, number.at)
+                into[row, n] = by_value(recipe, self.written, number)
         for k, found in sorted(rows.items()):
             touched = np.flatnonzero(found.any(axis=1))
             if touched.size:
