@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from test_unfinished_runs import pendulum, written
-from unfinished_runs import command, solved
+from unfinished_runs import OFTEN, command, solved
 
 from adamslite.analyses.checkpoint import begin
 from adamslite.cli.main import main
@@ -57,6 +57,25 @@ def test_a_signal_ends_a_run_which_can_go_on(tmp_path: Path, name: str) -> None:
     done = subprocess.run(command("--resume", str(part)), capture_output=True, cwd=tmp_path)
     assert done.returncode == 0 and output.read_bytes() == whole
     assert sorted(p.name for p in tmp_path.iterdir()) == ["deck.adm", "undisturbed.csv", "x.csv"]
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform == "win32", reason="files have no limit there")
+def test_a_full_disk_ends_a_run_which_can_go_on(tmp_path: Path) -> None:
+    """No file may be larger than 2 MB, then any."""
+    text = pendulum(600, 40000)
+    deck, part = written(tmp_path, text), tmp_path / "x.csv.part"
+    full = "import resource\nresource.setrlimit(resource.RLIMIT_FSIZE, (2 << 20, 2 << 20))\n"
+    words = ["solve", str(deck), "-o", "x.csv", "--quiet", *FLAGS]
+    ended = subprocess.run(
+        [sys.executable, "-c", full + OFTEN, *words], capture_output=True, text=True, cwd=tmp_path
+    )
+    assert ended.returncode == 5 and "Traceback" not in ended.stderr
+    assert "x.csv.part': " in ended.stderr and "goes on with `adamslite" in ended.stderr
+    assert part.exists() and not (tmp_path / "x.csv").exists()
+    done = subprocess.run(command("--resume", str(part)), capture_output=True, cwd=tmp_path)
+    assert done.returncode == 0 and not part.exists()
+    assert (tmp_path / "x.csv").read_bytes() == solved(deck, *FLAGS)
 
 
 def test_a_short_run_writes_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

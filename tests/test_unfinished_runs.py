@@ -81,8 +81,8 @@ END
 
 
 def sensed(end: float, steps: int) -> str:
-    """The swing, whose SENSOR writes another row and goes on whenever a bar passes the line."""
-    sensor = "SENSOR/1, FUNCTION=DY(4,1), VALUE=0, ERROR=1E-6, GE, PRINT, YYDUMP\n"
+    """The swing, whose SENSOR ends a run, and begins another, whenever a bar passes the line."""
+    sensor = "SENSOR/1, FUNCTION=DY(4,1), VALUE=0, ERROR=1E-6, GE, PRINT\n"
     return pendulum(end, steps).replace("SIMULATE", f"{sensor}SIMULATE")
 
 
@@ -116,6 +116,7 @@ CASES = {
     "contacts by AUTO": (box(4000, 20000), "--integrator", "AUTO", "--error", "1e-5"),
     "the past": (delayed(60, 8000), "--integrator", "GSTIFF", "--error", "1e-6"),
     "two analyses": (rests(1500, 8000), "--integrator", "GSTIFF", "--error", "1e-6"),
+    "sensors": (sensed(300, 6000), "--integrator", "GSTIFF", "--error", "1e-6"),
     "an audit": (pendulum(500, 8000), "--integrator", "GSTIFF", "--audit"),
     "rows within steps": (box(500, 150000), "--integrator", "GSTIFF", "--hmax", "100"),
     "rows within steps of HHT": (box(500, 150000), "--integrator", "HHT", "--hmax", "100"),

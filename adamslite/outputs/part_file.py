@@ -18,8 +18,8 @@ import json
 import os
 import struct
 import zlib
-from collections.abc import Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, BinaryIO, Protocol, TypeAlias
@@ -305,12 +305,22 @@ class PartFile:
         return at
 
     def _write(self, at: int, data: bytes) -> None:
-        self._stream.seek(at)
-        self._stream.write(data)
+        with self._named_faults():
+            self._stream.seek(at)
+            self._stream.write(data)
 
     def _sync(self) -> None:
-        self._stream.flush()
-        os.fsync(self._stream.fileno())
+        with self._named_faults():
+            self._stream.flush()
+            os.fsync(self._stream.fileno())
+
+    @contextmanager
+    def _named_faults(self) -> Iterator[None]:
+        try:
+            yield
+        except OSError as fault:
+            reason = f"{fault.strerror}; what there is goes on with `adamslite solve --resume`"
+            raise OSError(fault.errno, reason, str(self.path)) from None
 
 
 def _lock(path: Path, stream: BinaryIO) -> None:
