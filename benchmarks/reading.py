@@ -87,13 +87,17 @@ def _commands(path: Path) -> int:
 def _edit(path: Path) -> int:
     """Opened in an editor, and one letter typed."""
     from adamslite.editing.document import Document
-    from adamslite.editing.handlers import diagnostics_of
+    from adamslite.editing.positions import Positions
     from adamslite.language.text import decoded
 
     text = decoded(path.read_bytes())
     document = Document(path, "deck")
     for each in (text, text[:-5] + " " + text[-5:]):
-        diagnostics_of(document.update(each))
+        content = document.update(each)
+        positions = Positions(content, "utf-16")
+        for diagnostic in content.diagnostics:
+            for place in diagnostic.everywhere:
+                positions.range_of(place)
     return 0
 
 

@@ -78,6 +78,13 @@ def test_messages_are_left_out_once_and_counted_together():
     assert len(both) == MOST + 1 and both[-1].numbers == (500, 0, 0)
 
 
+def test_comments_that_ignore_nothing_are_counted_too():
+    text = "".join(f"MARKER/{n}, PART=2 ! adamslite: ignore wrong-{n}\n" for n in range(3, 503))
+    found = told(DECK + text)
+    assert found[-1].message.endswith(f": {found[-1].numbers[2]} notes")
+    assert sum(each.code == "ignores-nothing" for each in found) + found[-1].numbers[2] >= 500
+
+
 # ---- short messages ------------------------------------------------------------------------------
 
 

@@ -111,7 +111,7 @@ class Rereading(Reading):
             end = cut.end() if cut else len(text)
             stretch = text[start:end]
             known = self._cuts.get(stretch) or self.memory.cuts.get(stretch) or self._cut(stretch)
-            found = self._known(known, start) if known else self._read_cut(text[:end], start)
+            found = self._known(known, start) if known else self._read_cut(stretch, start)
             if known:
                 self._cuts[stretch] = known
             for number, (syntax, faults) in enumerate(found):
@@ -125,8 +125,12 @@ class Rereading(Reading):
         for each in cut.statements:
             yield _shifted(each, start), []
 
-    def _read_cut(self, text: str, start: int) -> Iterator[tuple[Syntax | None, Faults]]:
-        return map(statement_syntax, join(scan(text, start)))
+    def _read_cut(self, stretch: str, start: int) -> Iterator[tuple[Syntax | None, Faults]]:
+        """The statements of a stretch with mistakes, which is not kept."""
+        shifted = (
+            [(kind, word, at + start) for kind, word, at in tokens] for tokens in scan(stretch)
+        )
+        return map(statement_syntax, join(shifted))
 
     def _cut(self, stretch: str) -> Cut | None:
         """The statements of a stretch; None when there are mistakes."""

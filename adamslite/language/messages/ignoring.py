@@ -5,11 +5,20 @@ A comment works on the statement or argument that is on its own line.  It never 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections import Counter
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import replace
 from functools import cache
 
-from adamslite.language.diagnostics import ERROR, Diagnostic, Source, Span
+from adamslite.language.diagnostics import (
+    ERROR,
+    MOST,
+    SEVERITIES,
+    Diagnostic,
+    LeftOut,
+    Source,
+    Span,
+)
 from adamslite.language.likeness import did_you_mean
 from adamslite.language.messages import MESSAGES, compose
 from adamslite.language.messages.fixes import fixes
@@ -41,14 +50,19 @@ def judged(source: Source, diagnostics: Iterable[Diagnostic], complete: bool) ->
     used: set[tuple[str, int]] = set()
     wanted = {(each.code, each.line) for each in comments}
     left = _heeded(source, diagnostics, wanted, used) if wanted else list(diagnostics)
-    for each in comments:
-        entry = MESSAGES.get(each.code)
-        if entry and entry.severity == ERROR:
-            left.append(_about(source, each, "ignored-error"))
-        elif complete and each.code not in WHOLE and (each.code, each.line) not in used:
-            hint = "" if entry else _meant(each.code)
-            left.append(_about(source, each, "ignores-nothing", hint))
-    return left
+    about = [(each, code) for each in comments if (code := _mistake(each, complete, used))]
+    left += [_about(source, each, code) for each, code in about[:MOST]]
+    others = Counter(MESSAGES[code].severity for _, code in about[MOST:])
+    return [*left, LeftOut.of(others[each] for each in SEVERITIES)] if others else left
+
+
+def _mistake(each: Ignored, complete: bool, used: Collection[tuple[str, int]]) -> str:
+    """The code of what there is to say about a comment."""
+    entry = MESSAGES.get(each.code)
+    if entry and entry.severity == ERROR:
+        return "ignored-error"
+    needless = complete and each.code not in WHOLE and (each.code, each.line) not in used
+    return "ignores-nothing" if needless else ""
 
 
 def _heeded(
@@ -101,7 +115,8 @@ def _meant(code: str) -> str:
     return did_you_mean(code, MESSAGES).lower() or "no message has this code"
 
 
-def _about(source: Source, each: Ignored, code: str, hint: str = "") -> Diagnostic:
+def _about(source: Source, each: Ignored, code: str) -> Diagnostic:
+    hint = "" if each.code in MESSAGES else _meant(each.code)
     span = source.span(each.start, each.end)
     found = compose(code, span, source.quote(span), hint, word=each.code or "code")
     return replace(found, fixes=fixes(code, source, each.start, each.end, hint))
