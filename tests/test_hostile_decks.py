@@ -335,3 +335,38 @@ def test_a_description_of_others_ends_in_a_sentence(case: str) -> None:
 def test_a_description_in_comments_of_a_deck_stops_nothing(case: str) -> None:
     lines = (f"!# {line}\n" for line in f"cable\n{DESCRIPTIONS[case]}".split("\n"))
     assert not al.check(SPRING.replace("END\n", f"{''.join(lines)}END\n")).errors
+
+
+# ---- editors ------------------------------------------------------------------------------------
+
+
+def test_a_hover_holds_no_markdown_of_a_deck() -> None:
+    """An image in it would be fetched, and tell its server who reads."""
+    from adamslite.editing.document import Document
+    from adamslite.editing.hover import hover
+
+    image = "![x](http://host/x.png)"
+    text = (
+        f"t\nPART/1, GROUND\n! adams_view_name='{image}`{image}'\n"
+        f"PART/2, MASS=1,\n! ```\n! {image}\n"
+        ", CM=2, IP=1,1,1\nMARKER/2, PART=2\nEND\n"
+    )
+    content = Document("t.adm", "deck").update(text)
+    found = hover(content, text.index("PART=2") + len("PART="))
+    assert found is not None
+    name, _, shown = found[0].partition("\n\n")
+    assert name == f"PART/2 is called `{image}'{image}`"
+    fence = shown.partition("adams")[0]
+    assert fence == "````" and shown.count(fence) == 2
+
+
+@UNIX
+def test_an_editor_reads_no_deck_behind_a_link(elsewhere: Path) -> None:
+    """That of a command file is quoted in its messages."""
+    pytest.importorskip("pygls.lsp.server", reason="the extra [lsp] is not installed")
+    from adamslite.editing.server import _is_beside
+
+    folder = elsewhere.parent / "deck"
+    (folder / "a.adm").symlink_to(elsewhere / "table.csv")
+    (folder / "b.adm").write_text(SPRING)
+    assert not _is_beside(folder / "a.adm") and _is_beside(folder / "b.adm")

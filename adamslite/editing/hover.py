@@ -71,9 +71,14 @@ def _symbol(content: Content, token: Lexeme) -> str | None:
     if statement is None or not statement.span.line:
         return None
     start, end = statement.spans.whole_range
-    name = f"{statement.label} is called {statement.name}\n\n" if statement.name else ""
+    called = (statement.name or "").replace("`", "'")  # its name is no Markdown
+    name = f"{statement.label} is called `{called}`\n\n" if called else ""
     assert content.deck
-    return f"{name}```adams\n{content.deck.source.text[start:end]}\n```\n"
+    text = content.deck.source.text[start:end]
+    fence = "```"
+    while fence in text:
+        fence += "`"
+    return f"{name}{fence}adams\n{text}\n{fence}\n"
 
 
 def _flag(written: Written, token: Lexeme) -> str | None:
