@@ -22,13 +22,28 @@ def alone(name: str) -> Iterator[bool]:
     """
     path = cache_folder() / f".{name}.lock"
     lock, waited = _taken(path)
+    if lock is not None:
+        _held[path] = os.getpid()
     try:
         yield waited
     finally:
         if lock is not None:
+            _held.pop(path, None)
             with suppress(OSError):
                 path.unlink()
             os.close(lock)
+
+
+_held: dict[Path, int] = {}
+"""Locks, and the process that has taken each: a process that was forked holds none of them."""
+
+
+def let_go() -> None:
+    """Remove the locks of this process, which ends before it can leave :func:`alone`."""
+    for path, process in [*_held.items()]:
+        if process == os.getpid():
+            with suppress(OSError):
+                path.unlink()
 
 
 def _taken(path: Path) -> tuple[int | None, bool]:

@@ -121,7 +121,7 @@ def _digest(name: str, content: bytes) -> bytes:
 
 def _note_use(path: Path) -> None:
     with suppress(OSError):
-        if time.time() - path.stat().st_mtime > DAY:
+        if abs(time.time() - path.stat().st_mtime) > DAY:
             os.utime(path)
 
 
@@ -175,11 +175,16 @@ def bound() -> float:
 def trim(folder: Path, most: float) -> int:
     """Remove what has not been used for longest until ``most`` bytes are left, and dead drafts.
 
-    Returns the bytes that are left.
+    An entry of the future, of a clock that was put back, would be the last to go for ever: it
+    counts as used now.  Returns the bytes that are left.
     """
     for draft in found_files(folder, DRAFT):
-        if time.time() - draft.used > HOUR:
+        if abs(time.time() - draft.used) > HOUR:
             remove(draft)
+    for entry in entries(folder):
+        if entry.used > time.time() + DAY:
+            with suppress(OSError):
+                os.utime(entry.path)
     kept = entries(folder)
     total = sum(entry.size for entry in kept)
     for entry in kept if total > most else ():

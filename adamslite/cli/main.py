@@ -34,6 +34,7 @@ import os
 import sys
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
+from errno import ENOMEM
 from importlib import import_module
 from io import BufferedWriter, FileIO, TextIOWrapper
 from typing import Any, TypeAlias
@@ -332,7 +333,7 @@ def _explain(fault: Exception) -> int:
     if isinstance(fault, RunFailed):
         _tell(f"adamslite: {fault}")
         return STOPPED_EARLY
-    if isinstance(fault, MemoryError):
+    if _is_of_memory(fault):
         _tell(f"adamslite: {NO_MEMORY}")
         return STOPPED_EARLY
     if isinstance(fault, FormatError):
@@ -347,6 +348,12 @@ def _explain(fault: Exception) -> int:
     cause = " ".join(f"{type(fault).__name__}: {fault}".split())
     _tell(REPORT.format(fault=cause))
     return BROKEN
+
+
+def _is_of_memory(fault: Exception) -> bool:
+    """Whether there was no memory: for an object, for the system, for a library to be loaded."""
+    unloaded = isinstance(fault, ImportError) and "failed to map segment" in str(fault)
+    return unloaded or isinstance(fault, MemoryError) or getattr(fault, "errno", None) == ENOMEM
 
 
 def _tell(text: str) -> None:

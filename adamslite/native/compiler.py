@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import functools
 import hashlib
+import os
 from collections.abc import Callable, Iterable, Sequence
 from threading import Lock
 from typing import Any
@@ -49,7 +50,7 @@ def quick_code(text: str) -> bytes:
 
 
 def _simplified(_: Any) -> Any:
-    import llvmlite.binding as llvm
+    llvm = processor.library()
 
     manager = llvm.create_new_module_pass_manager()
     manager.add_sroa_pass()
@@ -65,7 +66,7 @@ def straight_code(text: str) -> bytes:
     Vectors made of scalars (SLP) take two thirds of LLVM's time on such bodies, which run slower
     for them.
     """
-    import llvmlite.binding as llvm
+    llvm = processor.library()
 
     def passes_of(passes: Any) -> Any:
         if "define internal" in text:
@@ -81,9 +82,15 @@ def straight_code(text: str) -> bytes:
 def _compiled(text: str, level: int, passes_of: Callable[[Any], Any]) -> bytes:
     """Object code by the passes that ``passes_of`` takes from a builder of passes."""
     from adamslite.machine import require_memory
+    from adamslite.native.fatal import explained
 
     require_memory(OF_LLVM + PER_LETTER * len(text))
-    import llvmlite.binding as llvm
+    with _compiling, explained():
+        return _emitted(text, level, passes_of)
+
+
+def _emitted(text: str, level: int, passes_of: Callable[[Any], Any]) -> bytes:
+    llvm = processor.library()
 
     machine = processor.target_machine() if level else processor.quick_machine()
     module = llvm.parse_assembly(text)
@@ -111,8 +118,26 @@ def addresses(parts: Iterable[tuple[bytes | tuple[bytes, ...], list[str]]]) -> d
 
 
 _linked: dict[str, int] = {}
-_linking = Lock()
-"""LLVM's linker takes one call at a time."""
+_compiling, _linking = Lock(), Lock()
+"""LLVM takes one call at a time.  A fork waits for it: a child has one thread, and what the others
+had locked, here and inside LLVM, would be locked in it for ever.
+"""
+
+
+def _before_fork() -> None:
+    _compiling.acquire()
+    _linking.acquire()
+
+
+def _after_fork() -> None:
+    _linking.release()
+    _compiling.release()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(
+        before=_before_fork, after_in_parent=_after_fork, after_in_child=_after_fork
+    )
 
 
 def _link(codes: Sequence[bytes], names: list[str]) -> dict[str, int]:
@@ -128,21 +153,24 @@ def _link(codes: Sequence[bytes], names: list[str]) -> dict[str, int]:
 
 def _link_by_llvm(codes: Sequence[bytes], names: list[str]) -> dict[str, int]:
     """Addresses from LLVM's linker, which knows every system and machine."""
-    import llvmlite.binding as llvm
+    llvm = processor.library()
 
-    engine = _llvm_linker()
-    for code in codes:
-        # It reads code and object later without owning them.
-        _kept.append((code, llvm.ObjectFileRef.from_data(code)))
-        engine.add_object_file(_kept[-1][1])
-    engine.finalize_object()
-    return {name: engine.get_function_address(name) for name in names}
+    from adamslite.native.fatal import explained
+
+    with explained():
+        engine = _llvm_linker()
+        for code in codes:
+            # It reads code and object later without owning them.
+            _kept.append((code, llvm.ObjectFileRef.from_data(code)))
+            engine.add_object_file(_kept[-1][1])
+        engine.finalize_object()
+        return {name: engine.get_function_address(name) for name in names}
 
 
 @functools.cache
 def _llvm_linker() -> Any:
     """The one linker of LLVM; code added to it lives as long as the process."""
-    import llvmlite.binding as llvm
+    llvm = processor.library()
 
     return llvm.create_mcjit_compiler(llvm.parse_assembly(""), processor.target_machine())
 

@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from adamslite.errors import UsageError
+from adamslite.errors import RunFailed, UsageError
 
 CPUINFO = Path("/proc/cpuinfo")
 HOST = "host"
@@ -77,10 +77,25 @@ def _told_by_python() -> str:
 
 
 def _told_by_llvm() -> str:
-    import llvmlite.binding as llvm
+    llvm = library()
 
     features = llvm.get_host_cpu_features().flatten()
     return f"{llvm.get_process_triple()} {llvm.get_host_cpu_name()} {features}"
+
+
+def library() -> Any:
+    """LLVM, which is loaded when it is first needed.
+
+    Raises
+    ------
+    RunFailed
+        When it cannot be loaded.
+    """
+    try:
+        import llvmlite.binding as llvm
+    except OSError as fault:
+        raise RunFailed(f"LLVM cannot be loaded: {fault.__context__ or fault}") from None
+    return llvm
 
 
 def target_machine() -> Any:
@@ -96,8 +111,7 @@ def quick_machine() -> Any:
 @functools.cache
 def make_machine(name: str, level: int = 3) -> Any:
     """The code generator for one of the targets; the level 0 does not optimise."""
-    import llvmlite.binding as llvm
-
+    llvm = library()
     llvm.initialize_native_target()
     llvm.initialize_native_asmprinter()
     host = llvm.get_host_cpu_features()
