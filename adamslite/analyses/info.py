@@ -36,7 +36,8 @@ def info(system: System, command: Info, time: float) -> str:
     if copy.run(ACCELERATIONS) != contract.DONE:
         return f"t = {time:.9g}: {command.kind} of {command.i} is not determined"
     copy.run(RECORD, 0)
-    names, values = columns(copy, copy.record[:-1].reshape(1, -1))
+    record = copy.record[: copy.nw + copy.sizes.n_out]
+    names, values = columns(copy, record.reshape(1, -1))
     row = dict(zip(names, values[0].tolist(), strict=True))
     found = (f"{name} {row[f'{measured.label}.F{n}']:.9g}"
              for n, name in enumerate(MEASURES[command.kind], 1) if name)  # fmt: skip
