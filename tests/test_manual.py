@@ -73,7 +73,7 @@ def test_statements_share_a_row_where_an_argument_means_the_same() -> None:
 def test_help_of_a_command_lists_its_flags() -> None:
     parsers = main.command_parsers()
     page = pages("solve", parsers)
-    assert "adamslite solve DECK [COMMANDS.acf] [flags]" in page
+    assert "adamslite solve [DECK] [COMMANDS.acf] [flags]" in page
     assert "| `--integrator NAME`" in page and "--debug" not in page
     assert "SIMULATE" not in pages("cache", parsers)
 

@@ -11,11 +11,12 @@ from adamslite.errors import UsageError
 #: How files begin that this program writes: tables, what LINEAR and SAVE leave; matrices for MATLAB
 #: hold nothing but numbers.
 STARTS = (b"# adamslite", b"mode,frequency,", b'{\n "coordinates"', b'{\n "saved by adamslite"')
-#: What is in the head of a page, of a file .res and of a file .req.
+#: What is in the head of a page, of files .res and .req, and of a fitted deck.
 MARKS = (
     b'name="generator" content="adamslite"',
     b'<File URI="-unknown-"',
     b" 2000-01-01 00:00:00 ",
+    b"Fitted by adamslite to ",
 )
 HEAD, NUMBERS = 500, b"0123456789+-.e naif\n"
 
