@@ -19,7 +19,7 @@ from adamslite.deck.redefinition import MergedSpans
 from adamslite.kernels.groups import compact
 from adamslite.language.diagnostics import Source, Spans
 
-MASSES = 1000
+MASSES = 1500
 READ, READING, BOUND = 1250, 2250, 300
 """Bytes per statement at most: of a deck, while it is read, and of its kernels."""
 
@@ -54,6 +54,7 @@ def once(work):
         tracemalloc.stop()
 
 
+@pytest.mark.slow
 def test_memory_of_a_deck_and_of_its_kernels():
     al.compile_model(al.assemble(al.read(deck(20))))  # compiles, imports
     text = deck(MASSES)

@@ -140,9 +140,12 @@ class _Writer:
 def serve(case: Case, folder: Path) -> str:
     """Let a server answer all messages of a session."""
     messages = [json.loads(line) for line in case.files[MESSAGES].decode().splitlines()]
+    writer, silenced = _Writer(), logging.root.manager.disable
     logging.disable(logging.CRITICAL)
-    writer = _Writer()
-    asyncio.run(_served(messages, writer))
+    try:
+        asyncio.run(_served(messages, writer))
+    finally:
+        logging.disable(silenced)
     errors = any("error" in each for each in writer.sent)
     answered = {each["id"] for each in writer.sent if "id" in each and "method" not in each}
     assert answered <= {each.get("id") for each in messages}
