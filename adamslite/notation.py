@@ -29,6 +29,8 @@ PHRASES = {
         "give the command file to the run: `adamslite.simulate(DECK, commands=FILE)`",
     "`adamslite solve -o FILE`": "`Results.save`",
     "give -o another name": "choose another name",
+    "a table (-o NAME.csv)": "a table of the command line",
+    "or -o FILE.csv": "or a table",
     "nor in one that --allow-path opens": "nor in one that adamslite.allow_path opens",
     "`solve`": "`simulate`",
 }  # fmt: skip

@@ -301,9 +301,12 @@ def _part(made: Mechanism, b: int, drawn: tuple[Array, Array], at_rest: bool) ->
     if at_rest:
         v, spin = 0.0 * v, 0.0 * spin
     pose = _pose(made.rng, at, turned, length, "ZG", "XG", made.vector)
+    noise = np.repeat([1e-11 * length, 1e-11], 3)  # of a mechanism that has nowhere to go
+    moving = np.concatenate([v, spin])
+    moving = np.where(np.abs(moving) > noise, moving, 0.0)
     speeds = ", ".join(
         f"{name}={float(v)!r}"
-        for name, v in zip(("VX", "VY", "VZ", "WX", "WY", "WZ"), (*v, *spin), strict=True)
+        for name, v in zip(("VX", "VY", "VZ", "WX", "WY", "WZ"), moving, strict=True)
     )
     return [
         f"PART/{b + 2}, MASS={body.mass:.17g}, CM={101 + b}, IP={made.vector(six)}",

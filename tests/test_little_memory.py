@@ -92,7 +92,7 @@ def test_memory_that_ends_while_code_is_compiled(
 ) -> None:
     """Libraries cannot be loaded, LLVM finds no memory, or Python or the system finds none."""
     (tmp_path / "fall.adm").write_text(FALL.format(now=more))
-    (tmp_path / "fall.csv").write_text("old\n")
+    (tmp_path / "fall.csv").write_text("# adamslite, old\n")
     before = contents(tmp_path)
     done = adamslite(tmp_path, ["solve", "fall.adm", "--quiet"], SHORT.format(turn=turn, more=more))
     said = done.stderr

@@ -42,9 +42,13 @@ def until_there_is_a_state(process: subprocess.Popen[bytes], part: Path) -> None
 def test_a_signal_ends_a_run_which_can_go_on(tmp_path: Path, name: str) -> None:
     deck, output = written(tmp_path, LONG), tmp_path / "x.csv"
     part = Path(f"{output}.part")
-    process = subprocess.Popen(
-        command(str(deck), "-o", str(output), *FLAGS), stderr=subprocess.PIPE, cwd=tmp_path
-    )
+    caught = signal.signal(getattr(signal, name), signal.default_int_handler)  # nohup ignores it
+    try:
+        process = subprocess.Popen(
+            command(str(deck), "-o", str(output), *FLAGS), stderr=subprocess.PIPE, cwd=tmp_path
+        )
+    finally:
+        signal.signal(getattr(signal, name), caught)
     until_there_is_a_state(process, part)
     process.send_signal(getattr(signal, name))
     error = process.communicate(timeout=120)[1].decode()
