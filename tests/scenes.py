@@ -283,3 +283,15 @@ def owner(scene: System, row: int) -> object:
     """The node that a row belongs to."""
     node = max(k for k, first in enumerate(scene.starts) if first <= row)
     return scene.nodes[node]
+
+
+BALL_ON_A_FLOOR = """a ball that bounces on a floor with damping
+PART/1, GROUND
+MARKER/1, PART=1
+ACCGRAV/JGRAV=-9.81
+POINT_MASS/2, MASS=2, CM=2, QG=0,1,0
+MARKER/2, POINT_MASS=2
+VFORCE/1, I=2, JFLOAT=3, RM=1, FX=0\\FY=IMPACT(DY(2,1),VY(2,1),0.1,1E4,1.5,50,0.01)\\FZ=0
+MARKER/3, PART=1, FLOATING
+END
+"""

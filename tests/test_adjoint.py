@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scenes import BALL_ON_A_FLOOR
 
 import adamslite as al
 from adamslite.analyses.session import Session
@@ -40,17 +41,6 @@ MARKER/2, POINT_MASS=2
 SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=2, J=3,
 , FUNCTION=IF(DY(2,1)-0.1: 40-5000*(DY(2,1)-0.1)-10*VY(2,1), 0, 0)
 SFORCE/2, TRANSLATIONAL, ACTIONONLY, I=2, J=1, FUNCTION=IF(TIME-0.31: 0, 3, 3)
-END
-"""
-
-IMPACT = """a ball that bounces on a floor with damping
-PART/1, GROUND
-MARKER/1, PART=1
-ACCGRAV/JGRAV=-9.81
-POINT_MASS/2, MASS=2, CM=2, QG=0,1,0
-MARKER/2, POINT_MASS=2
-VFORCE/1, I=2, JFLOAT=3, RM=1, FX=0\\FY=IMPACT(DY(2,1),VY(2,1),0.1,1E4,1.5,50,0.01)\\FZ=0
-MARKER/3, PART=1, FLOATING
 END
 """
 
@@ -197,7 +187,7 @@ def test_both_directions_agree_to_round_off(
 def test_steps_that_grow_behind_a_bounce(integrator: str, tolerance: float) -> None:
     """From microseconds to tenths of a second: weights of differences are powers of that."""
     by = ["POINT_MASS/2.QG[1]", "POINT_MASS/2.MASS", "VFORCE/1.FY[0]", "VFORCE/1.FY[3]"]
-    compare(IMPACT, ["POINT_MASS/2.y@end"], by, tolerance,
+    compare(BALL_ON_A_FLOOR, ["POINT_MASS/2.y@end"], by, tolerance,
             end=1.0, steps=10, error=1e-9, integrator=integrator)  # fmt: skip
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import mpmath as mp
 import numpy as np
 import pytest
-from scenes import GRAVITY, INERTIA, LENGTH, MASS, PENDULUM, PERIOD, RATE
+from scenes import BALL_ON_A_FLOOR, GRAVITY, INERTIA, LENGTH, MASS, PENDULUM, PERIOD, RATE
 from scipy.integrate import solve_ivp
 
 import adamslite as al
@@ -250,22 +250,10 @@ def test_matrices_that_are_kept_cost_no_digits(name, by, run, monkeypatch):
     assert made[0].matrices <= 0.5 * made[1].matrices
 
 
-IMPACT = """a ball that bounces on a floor with damping
-PART/1, GROUND
-MARKER/1, PART=1
-ACCGRAV/JGRAV=-9.81
-POINT_MASS/2, MASS=2, CM=2, QG=0,1,0
-MARKER/2, POINT_MASS=2
-VFORCE/1, I=2, JFLOAT=3, RM=1, FX=0\\FY=IMPACT(DY(2,1),VY(2,1),0.1,1E4,1.5,50,0.01)\\FZ=0
-MARKER/3, PART=1, FLOATING
-END
-"""
-
-
 def test_a_bounce_against_differences():
     """Height, mass, stiffness, damping and the place of the floor, behind two bounces."""
     names = ["POINT_MASS/2.QG[1]", "POINT_MASS/2.MASS", *(f"VFORCE/1.FY[{k}]" for k in (0, 1, 3))]
-    run, deck = {"end": 1.5, "steps": 3}, al.read(IMPACT)
+    run, deck = {"end": 1.5, "steps": 3}, al.read(BALL_ON_A_FLOOR)
     found = al.sensitivities(deck, names, ["POINT_MASS/2.y@end"], error=1e-12, **run)
     for name, value in zip(found.by, found.at, strict=True):
         h = 1e-4 * value
