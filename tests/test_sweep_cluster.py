@@ -177,7 +177,7 @@ def test_a_run_that_brings_its_worker_down_fails_alone(tmp_path: Path, monkeypat
         "SIMULATE", "VARIABLE/1, FUNCTION=USER(3)\nREQUEST/1, F2=VARVAL(1)\nSIMULATE"
     )
 
-    monkeypatch.setattr(cluster, "LOT", 1e3)  # it is in a lot with another run
+    monkeypatch.setattr(cluster, "LOT", 1e3)  # it is in a lot with others
 
     def law(parameters: Any, time: float) -> float:
         if parameters[0] == 2:
@@ -185,8 +185,8 @@ def test_a_run_that_brings_its_worker_down_fails_alone(tmp_path: Path, monkeypat
         return float(parameters[0])
 
     with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, dashboard_address=None, local_directory=str(tmp_path)
-    ) as made:
+        n_workers=1, threads_per_worker=1, dashboard_address=None, local_directory=str(tmp_path)
+    ) as made:  # one worker: what waits for it is lost each time, too
         found = al.sweep(
             deck, "VARIABLE/1.FUNCTION=1:8:8", measures=["max REQUEST/1.F2"],
             user={"VARIABLE/1": law}, client=made.scheduler_address,

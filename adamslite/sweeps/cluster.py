@@ -53,6 +53,13 @@ class Parcel(NamedTuple):
     program: str
 
 
+class Lot(NamedTuple):
+    """Runs that go to a worker together; a suspect one has gone out before, and is alone now."""
+
+    numbers: list[int]
+    suspect: bool
+
+
 class OtherWorker(RuntimeError):
     """A worker has not what the sweep began with: the program, or a file."""
 
@@ -130,9 +137,9 @@ class _Lots:
 
         self.client, self.job = client, job
         self.left = [int(number) for number in reversed(numbers)]
-        self.alone: list[int] = []  # those whose lot has brought workers down
+        self.alone: list[int] = []  # of lots that were lost with their workers, or beside those
         self.each, self._threads, self._counted = UNKNOWN, 1, -COUNTED
-        self.waiting: dict[Future, list[int]] = {}
+        self.waiting: dict[Future, Lot] = {}
         self._ended = as_completed([], loop=client.loop)
         self.parcel = self._sent()
 
@@ -163,19 +170,20 @@ class _Lots:
         return self._threads
 
     def hand_out(self) -> None:
-        """So many lots that no thread waits for its next one."""
-        while (self.left or self.alone) and len(self.waiting) < 2 * self.threads:
-            count = 1
-            if not self.alone:
-                fair = -(-len(self.left) // (2 * self.threads))
-                lasting = max(LOT, self.threads / ENDING)
-                count = max(1, min(int(lasting / self.each), fair, LARGEST))
-            source = self.alone or self.left
-            lot = [source.pop() for _ in range(count)]
-            given = np.array(lot), self.job.values[lot]
-            future = self.client.submit(_lot, self.parcel, *given, pure=False)
-            self.waiting[future] = lot
-            self._ended.add(future)
+        """So many lots that no thread waits for its next one; a suspect when all have ended."""
+        while self.left and len(self.waiting) < 2 * self.threads:
+            fair = -(-len(self.left) // (2 * self.threads))
+            lasting = max(LOT, self.threads / ENDING)
+            count = max(1, min(int(lasting / self.each), fair, LARGEST))
+            self._submit([self.left.pop() for _ in range(count)])
+        if self.alone and not self.waiting:
+            self._submit([self.alone.pop()], suspect=True)
+
+    def _submit(self, numbers: list[int], *, suspect: bool = False) -> None:
+        given = np.array(numbers), self.job.values[numbers]
+        future = self.client.submit(_lot, self.parcel, *given, pure=False)
+        self.waiting[future] = Lot(numbers, suspect)
+        self._ended.add(future)
 
     def ready(self) -> list[Future]:
         """Lots that have ended in some way; waits for one."""
@@ -189,9 +197,10 @@ class _Lots:
         try:
             spent, runs = future.result()
         except KilledWorker as fault:
-            if len(lot) == 1:
-                return [self.job.without(lot[0], FAULT, f"its worker ended by itself: {fault}")]
-            self.alone += reversed(lot)
+            if lot.suspect:
+                ended = f"its worker ended by itself: {fault}"
+                return [self.job.without(lot.numbers[0], FAULT, ended)]
+            self.alone += reversed(lot.numbers)
             return []
         except Exception as fault:
             raise RunFailed(self._why(future, fault)) from None
