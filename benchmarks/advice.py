@@ -104,7 +104,7 @@ class Verdict:
 
 @dataclass(frozen=True)
 class Deck:
-    """The deck of an advice, its model and method, and CPU told [s]."""
+    """The deck of an advice, its model and method, and CPU estimated [s]."""
 
     text: str
     model: Model
@@ -283,7 +283,7 @@ def report(found: Sequence[Verdict], way: str) -> list[str]:
         f"  inside 1.5 p      {share(sum(each.off <= 1.5 for each in known), len(known))}",
         f"  nothing cheaper   {share(sum(each.is_least for each in inside), len(inside))}"
         " (outside p, or less than twice cheaper)",
-        f"  CPU told          {share(len(near), len(ratios))} within a factor 2",
+        f"  CPU estimated     {share(len(near), len(ratios))} within a factor 2",
     ]
     if way == "tried":
         lines.append(f"  not settled       {len(unsettled)}, of which with a truth "

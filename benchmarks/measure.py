@@ -95,7 +95,7 @@ class Point(work_precision.Point):
 
 
 def point(program: str, scene: str, n: int, settings: Settings) -> Point:
-    """A point to be measured; the absolute tolerance follows the relative one and is not told."""
+    """A point to be measured; the absolute tolerance follows from the relative one, unprinted."""
     told = {"error": "ERROR", "steps": "steps", "rtol": "rtol"}
     setting = " ".join(f"{told[k]}={v:g}" for k, v in settings.items() if k in told)
     if "steps" in settings:

@@ -3,8 +3,9 @@
     python -m benchmarks.rigid_advice --scenes 80 --seed 1
 
 Random mechanisms (:mod:`benchmarks.rigid_scenes`): the change that a note advises is made in the
-deck, and made as well where nothing is told.  True is a note where the places of parts change by
-no more than it says; left out without need is one where they would have changed by next to nothing.
+deck, and made as well where nothing is reported.  True is a note where the places of parts change
+by no more than it says; left out without need is one where they would have changed by next to
+nothing.
 """
 
 from __future__ import annotations
@@ -27,8 +28,8 @@ ERROR = 1e-9
 
 
 class Tried(NamedTuple):
-    """A scene, what is told to be lost (None: nothing is told) and what is, both of the size, and
-    CPU as it is over that of the advised deck.
+    """A scene, what is said to be lost (None: nothing is reported) and what is, both of the size,
+    and CPU as it is over that of the advised deck.
     """
 
     kind: str
@@ -78,7 +79,7 @@ def figures(results: Iterable[Tried]) -> str:
     for each in results:
         kinds[each.kind].append(each)
     rows = [
-        "| scene | told | true | largest lost/told | CPU saved | not told | needed |",
+        "| scene | reported | true | largest lost/reported | CPU saved | not reported | needed |",
         "|---|---|---|---|---|---|---|",
     ]
     for kind, found in sorted(kinds.items()):
@@ -95,7 +96,7 @@ def figures(results: Iterable[Tried]) -> str:
 
 
 def main() -> None:
-    """Print the rows, and scenes that are not as told."""
+    """Print the rows, and scenes that are not as reported."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--scenes", type=int, default=40)
     parser.add_argument("--seed", type=int, default=1)

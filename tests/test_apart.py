@@ -45,7 +45,7 @@ def text(body: str = WHOLE, unit: str = "METER", **given: float) -> str:
 
 
 def missed(deck: str, **options: object) -> dict[str, float]:
-    """What was not reached, and the distances that are told."""
+    """What was not reached, and the distances that are reported."""
     results = adamslite.simulate(adamslite.read(deck), **options)
     found = re.findall(r"(\w+/\w+) by (\S+?)[,;]", results.meta.get("not reached", ""))
     return {label: float(value) for label, value in found}

@@ -74,7 +74,7 @@ def test_the_advice_is_the_choice_of_the_description(text: str) -> None:
     assert advice(head) == own_choice(text)
     assert advice(head, 0.02) == own_choice(text + "[model]\naccuracy = 0.02\n")
     of = setting(text)
-    assert "; ".join(chosen(of, of.faults).reasons.told) in lines_of(head)
+    assert "; ".join(chosen(of, of.faults).reasons.sentences) in lines_of(head)
 
 
 @pytest.mark.parametrize("model", ["elements = 7", "level = 3\nform = 'ale'", "accuracy = 0.1"])

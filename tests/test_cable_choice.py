@@ -122,7 +122,7 @@ def test_a_winch_with_an_engine_is_estimated_too() -> None:
 
 
 def hoist(law: str, reverse: bool) -> str:
-    """The winch and its weight, told from the winch on or from the weight on."""
+    """The winch and its weight, listed from the winch on or from the weight on."""
     start, *stations = HOIST.replace(PAYOUT, law).split("[[route]]\n")
     if reverse:
         stations = [each.replace("turn = -1", "turn = 1") for each in reversed(stations)]

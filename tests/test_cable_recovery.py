@@ -140,7 +140,7 @@ def test_two_cables_of_a_deck() -> None:
     ],
 )
 def test_what_else_acts_is_no_part_of_a_description(more: str) -> None:
-    """The advice then rests on rules; forces on the nodes of the cable are told."""
+    """The advice then rests on rules; forces on the nodes of the cable are reported."""
     lines = about_cables(adamslite.read(whole("METER", struck(), more)))
     assert not any("because" in line for line in lines)
     assert any("forces     on its nodes" in line for line in lines) == ("I=3" in more)

@@ -1,4 +1,4 @@
-"""Cable scenes that single rules had wrong: what is chosen for them, and what is told."""
+"""Cable scenes that single rules had wrong: what is chosen for them, and what is reported."""
 
 import re
 
@@ -46,7 +46,7 @@ def hoisted(law: str, mass: float, length: float, EA: float, rho: float, **more:
 
 
 def chosen(description: str, model: str = "") -> tuple[int, int, str, list[str]]:
-    """Level, sections, method, and the codes of what is told."""
+    """Level, sections, method, and the codes of what is reported."""
     text, told = deck(description + model)
     head = " ".join(text[: text.index("! Written")].replace("\n! ", " ").split())
     count = re.search(r"(\d+) sections?\b", head)

@@ -1,4 +1,4 @@
-"""Models of a description are tried: what is taken, what is told, and what it costs."""
+"""Models of a description are tried: what is taken, what is reported, and what it costs."""
 
 import re
 from collections.abc import Callable
@@ -129,7 +129,7 @@ def test_what_the_finest_run_is_off(means: tuple[float, ...], off: float) -> Non
 
 
 def test_level_1_is_taken_where_it_does() -> None:
-    """And the warning that its waves matter, which runs refute, is not told."""
+    """And the warning that its waves matter, which runs refute, is not reported."""
     for off, level in ((0.004, 1), (0.02, 3)):
         found = with_trial(made_up(lambda n, error: 0.0, rigid=off), HOIST)
         assert (found.deck.model.level, codes(found)) == (level, [])

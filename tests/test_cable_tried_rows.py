@@ -116,7 +116,7 @@ def test_a_crane_takes_a_few_sections() -> None:
 
 @pytest.mark.slow
 def test_a_rope_that_becomes_slack_only_pulls() -> None:
-    """It is told, and modelled: the deck of a weight that is thrown up by its own rope."""
+    """It is reported, and modelled: the deck of a weight that is thrown up by its own rope."""
     found = written(DOWN)
     assert "goes-slack" in codes(found) and {*codes(found)} <= {"goes-slack", "unsettled"}
     assert "MAX(0," in found.deck.text and found.deck.model.level == 2
@@ -125,7 +125,7 @@ def test_a_rope_that_becomes_slack_only_pulls() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("table", [THROWN, HEAVY], ids=["thrown", "whips"])
 def test_what_runs_cannot_settle_is_told(table: Table) -> None:
-    """Slack about which no two numbers of sections agree: pulls only, and what is left is told."""
+    """Slack about which no two numbers of sections agree: pulls only; what is left is reported."""
     found = written(table)
     assert codes(found) in (["goes-slack", "unsettled"], ["unsettled", "goes-slack"])
     told = next(each for each in found.deck.messages if each.code == "unsettled")

@@ -180,7 +180,7 @@ def test_scale_multiplies_error_for_its_kind_of_coordinate():
 
 
 def test_scale_must_be_positive():
-    """INTEGRATOR/ABAM, SCALE=1,-1 is a mistake; without it, a warning tells how it is read."""
+    """INTEGRATOR/ABAM, SCALE=1,-1 is a mistake; without it, a warning says how it is read."""
     with pytest.raises(al.DeckError, match="SCALE of INTEGRATOR must be above zero"):
         al.read(FREE.replace("END", "INTEGRATOR/ABAM, SCALE=1,-1\nEND"))
     deck = al.read(FREE.replace("END", "INTEGRATOR/ABAM, SCALE=1,1\nEND"))

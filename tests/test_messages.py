@@ -19,7 +19,7 @@ from adamslite.language.messages.needless import NEEDLESS
 from adamslite.reading.read import read, read_commands
 
 WHOLE = ("no-run", *NEEDLESS)
-"""What is known only when deck and commands have been read, or is told by `check` alone."""
+"""What is known only when deck and commands have been read, or is reported by `check` alone."""
 LONG = ("deck-too-large", "expression-too-large", "expression-too-long", "more-messages")
 """They have no short example, see test_hostile_texts."""
 BROKEN = [

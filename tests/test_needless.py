@@ -131,7 +131,7 @@ MARKER/12, PART=4, QP=0,0,{length!r}"""
 
 @pytest.mark.parametrize("seed", every(3, range(6)))
 def test_a_light_link_is_as_good_as_a_distance(seed: int) -> None:
-    """Places change by no more than the share of the inertia that is told, times the way.
+    """Places change by no more than the share of the inertia that is reported, times the way.
 
     That of seed 1 runs through dead centres, with 2000 times its weight in the link.
     """
@@ -219,7 +219,7 @@ END
 @pytest.mark.parametrize("kind", ["SPHERICAL", "FIXED"])
 @pytest.mark.parametrize(("length", "stiffness"), [(1.4, 3e8), (0.3, 1e9)])
 def test_a_stiff_bushing_is_as_good_as_a_joint(kind: str, length: float, stiffness: float) -> None:
-    """Damped a little. Places change by no more than is told."""
+    """Damped a little. Places change by no more than is reported."""
     turning = stiffness * length**2 if kind == "FIXED" else 0.0
     damping = 0.05 * stiffness**0.5
     k, kt, c, ct = ([value] * 3 for value in (stiffness, turning, damping,

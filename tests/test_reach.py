@@ -47,7 +47,7 @@ CONTACT = "CONTACT/1, IGEOM=1, JGEOM=2, IMPACT, STIFFNESS=1E3, EXPONENT=1.5, DAM
 @pytest.mark.parametrize(("a", "b"), [(0.5, 0.8), (2.0, 0.3)])
 @pytest.mark.parametrize("missing", [0.2, -0.01])
 def test_a_ball_and_a_floor(seed: int, a: float, b: float, missing: float) -> None:
-    """At a + b + radii + missing from the origin: what is missing is told, and no more."""
+    """At a + b + radii + missing from the origin: what is missing is reported, and no more."""
     d, text = arm(seed, a, b)
     text += ball(d, 1, 32, 0.1)
     far = a + b + 0.1 + missing
@@ -91,7 +91,7 @@ def test_what_slides_may_reach_anything(joint: str) -> None:
 
 @pytest.mark.parametrize("seed", every(4, range(12)))
 def test_a_run_does_not_reach_it_either(seed: int) -> None:
-    """Thrown about: the run misses what is told to be out of reach, by no less than is told."""
+    """Thrown about: the run misses what is reported out of reach, by no less than is reported."""
     rng = np.random.default_rng(seed)
     a, b = rng.uniform(0.3, 1.5, 2)
     d, text = arm(seed, float(a), float(b))

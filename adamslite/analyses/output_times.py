@@ -48,7 +48,7 @@ def output_times(command: Simulate, start: float) -> np.ndarray:
 
 
 def rows_of(commands: Iterable[Command]) -> int:
-    """How many rows the analyses write, but for those whose begin nothing tells beforehand."""
+    """How many rows the analyses write, but for those whose begin is not known beforehand."""
     at: float | None = 0.0
     rows = 0
     for command in commands:

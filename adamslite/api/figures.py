@@ -235,9 +235,9 @@ def _view_sweep(
     if isinstance(deck, str | os.PathLike):
         deck = read(Path(deck) if isinstance(deck, os.PathLike) else deck)
     numbers = numbers_of_runs(runs, len(sweep)) if isinstance(runs, str) else runs
-    page, told = page_of_sweep(sweep, deck, numbers, names)
-    if told:
-        warnings.warn(told, DeckWarning, stacklevel=3)
+    page, different = page_of_sweep(sweep, deck, numbers, names)
+    if different:
+        warnings.warn(different, DeckWarning, stacklevel=3)
     if output is None and show is not True and in_notebook():
         return Frame(page)
     write_page(page, path)

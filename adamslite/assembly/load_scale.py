@@ -1,4 +1,4 @@
-"""How large the loads of a model are, as far as its deck tells before a run.
+"""How large the loads of a model are, as far as its deck shows before a run.
 
 The sum of the sizes of all weights, of all forces in the posture as drawn, at some times of the
 run, and of what the speeds at the start and the MOTIONs ask for:

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 TOGETHER = frozenset({"ATPOINT", "CONVEL", "FIXED", "HOOKE", "REVOLUTE", "SPHERICAL", "UNIVERSAL"})
 
 
-#: Markers that are passed on all ways together; what is longer than this is told nothing of.
+#: Markers that are passed on all ways together; of what is longer nothing is reported.
 MOST = 20_000
 
 

@@ -69,7 +69,7 @@ def check(deck: Deck) -> list[Diagnostic]:
 
 
 def needless(deck: Deck) -> list[Diagnostic]:
-    """What the scene of a deck can do without; `check` tells it, runs do not."""
+    """What the scene of a deck can do without; `check` reports it, runs do not."""
     found = [*with_named(deck, apply(NEEDLESS_RULES, deck))]
     return sort_by_place(without_ignored(deck.source, found))
 

@@ -166,7 +166,7 @@ def _open_streams() -> None:
     """
     if os.name != "posix":  # the console of Windows has a class of its own
         return
-    # Who writes to a closed standard output is told so; nobody can be told of a standard error.
+    # Writing to a closed standard output is reported; a closed standard error leaves no way to.
     for number, mode in ((0, os.O_RDONLY), (1, os.O_RDONLY), (2, os.O_WRONLY)):
         try:
             os.fstat(number)

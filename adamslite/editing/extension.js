@@ -134,18 +134,18 @@ const fromRange = (r) => ({
 // ---- the extension ------------------------------------------------------------------------------
 
 function activate(context) {
-  const told = vscode.languages.createDiagnosticCollection("adamslite");
+  const diagnostics = vscode.languages.createDiagnosticCollection("adamslite");
   const opened = new Set();
   const command = vscode.workspace.getConfiguration("adamslite").get("command");
   const server = new Connection(
     command,
     (method, params) => {
       if (method === "textDocument/publishDiagnostics") {
-        told.set(vscode.Uri.parse(params.uri), params.diagnostics.map(toDiagnostic));
+        diagnostics.set(vscode.Uri.parse(params.uri), params.diagnostics.map(toDiagnostic));
       }
     },
     (reason) => {
-      told.clear();
+      diagnostics.clear();
       vscode.window.showErrorMessage(`adamslite: the language server does not run: ${reason}`);
     }
   );
@@ -186,7 +186,7 @@ function activate(context) {
 
   const { languages, workspace } = vscode;
   context.subscriptions.push(
-    told,
+    diagnostics,
     { dispose: () => deactivate() },
     workspace.onDidOpenTextDocument(open),
     workspace.onDidChangeTextDocument(change),

@@ -47,7 +47,7 @@ PLACES = {part: (group, n) for group, parts in GROUPS.items() for n, part in enu
 BODIES = ("PART/", "POINT_MASS/")
 # 64-bit offsets: a file may be larger than 2 GB.
 VERSION = 2
-# Bytes of a variable, and those that the header tells of it.
+# Bytes of a variable, and those that the header takes for it.
 LARGEST, LARGEST_TOLD = 2**32 - 4, 2**31 - 8
 TOO_LARGE = (
     "'{name}' takes {size:.3g} GB, and NetCDF-3 holds {most:.3g} GB of each variable: --outputs "

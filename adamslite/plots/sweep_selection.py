@@ -135,8 +135,8 @@ class Runs:
         """What is known of the runs, for small print."""
         endings = Counter(self.sweep.outcomes[k] for k in self.sweep.failed)
         if endings:
-            told = ", ".join(f"{count} {ending}" for ending, count in endings.most_common())
-            yield f"{len(self.sweep.failed)} of {len(self.sweep)} runs failed: {told}."
+            ends = ", ".join(f"{count} {ending}" for ending, count in endings.most_common())
+            yield f"{len(self.sweep.failed)} of {len(self.sweep)} runs failed: {ends}."
         if self.sweep.ahead:
             yield f"{len(self.sweep.ahead)} of {len(self.sweep)} runs are ahead and not drawn."
 

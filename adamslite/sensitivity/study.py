@@ -51,7 +51,7 @@ COARSE = (
     "largest, a smaller ERROR is needed"
 )
 GRAZED = "the motion only touches what changes a branch: nothing is known behind such an event"
-# Estimates from here on are told.
+# Estimates from here on are reported.
 DOUBTFUL = 0.01
 # Whether motion in a plane is followed in the plane.
 PLANAR = True

@@ -98,7 +98,7 @@ def _client(address: str) -> Client:
 
     from distributed import Client
 
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # failures are told in a sentence
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # one sentence reports failures
     at = {"scheduler_file": address} if address.endswith(".json") else {"address": address}
     try:
         if "scheduler_file" in at and not Path(address).is_file():

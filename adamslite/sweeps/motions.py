@@ -77,9 +77,9 @@ def page_of_sweep(
     runs.need_room(len(chosen))
     page = Page(runs=len(chosen), plotted=runs.plotted(len(chosen), channels))
     drawn = scene_of_runs(runs.cases(chosen), page, table(sweep, chosen))
-    told = different(runs.others) if runs.others else ""
-    notes = [*drawn.plain["notes"], *([told] if told else [])]
-    return page_of_scene(replace(drawn, plain={**drawn.plain, "notes": notes})), told
+    warning = different(runs.others) if runs.others else ""
+    notes = [*drawn.plain["notes"], *([warning] if warning else [])]
+    return page_of_scene(replace(drawn, plain={**drawn.plain, "notes": notes})), warning
 
 
 def bound_deck(sweep: Sweep, user: Sequence[str]) -> Deck:
@@ -106,7 +106,7 @@ def numbers_of_runs(text: str, count: int) -> list[int]:
 
 
 def table(sweep: Sweep, numbers: Sequence[int]) -> dict[str, Any]:
-    """What a page tells of runs: their numbers, measures and how they ended."""
+    """What a page says of runs: their numbers, measures and how they ended."""
     rows, failed = list(numbers), set(sweep.failed)
     return {
         "runs": rows,

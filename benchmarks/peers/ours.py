@@ -31,7 +31,7 @@ def installed() -> bool:
 
 
 def solve(options: Settings, scene: str, n: int, settings: Settings) -> Solution:
-    """Read, assemble, compile, simulate; the solver tells its own CPU time.
+    """Read, assemble, compile, simulate; the solver measures its own CPU time.
 
     ``settings`` with "steps" ask for that many equal ones.
     """

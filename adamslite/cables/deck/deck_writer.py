@@ -82,7 +82,8 @@ def _notes(each: Modelled) -> str:
     """The model, and why."""
     model, name = each.model, each.spec.numbers.name
     kind = BRUTE if model.form == "brute" else NOTES[model.level]
-    notes = f"{kind} Chosen: {'; '.join(model.reasons.told)}. Figures: {'; '.join(model.figures)}."
+    reasons, figures = "; ".join(model.reasons.sentences), "; ".join(model.figures)
+    notes = f"{kind} Chosen: {reasons}. Figures: {figures}."
     return f"Cable {name}. {notes}" if name else notes
 
 

@@ -74,7 +74,7 @@ class Described(NamedTuple):
                 yield Choice(p, _model(self.model), self.model.tried, setting.demand)
             else:
                 model = chosen(setting, setting.faults)
-                yield Choice(p, model, model.reasons.told, setting.demand)
+                yield Choice(p, model, model.reasons.sentences, setting.demand)
 
 
 def described(deck: str, title: str) -> Described | None:

@@ -158,8 +158,8 @@ def chosen(of: Setting, faults: Faults, why: Reasons | None = None) -> CableMode
     """The model that is asked for, or what the linear model chooses; `why` that one where runs have
     shown it."""
     model = choose_model(as_borne(of.spec), of.pieces, of.moves, of.demand, faults)
-    told = bending_advice.told(of.given, of.pieces, min(tensions(of.given, of.pieces)))
-    return replace(model, reasons=replace(why or model.reasons, more=tuple(told)))
+    bending = bending_advice.sentences(of.given, of.pieces, min(tensions(of.given, of.pieces)))
+    return replace(model, reasons=replace(why or model.reasons, more=tuple(bending)))
 
 
 def written(of: Setting, why: Reasons | None = None) -> Written:
@@ -263,7 +263,7 @@ def _check_shares(found: list[Modelled], ropes: list[Rope], loads: tuple[Load, .
 
 def _shown(spec: Spec, model: CableModel, why: Reasons | None) -> Model:
     """What the comments of a deck say about its model."""
-    tried = [*model.reasons.told] if why else []
+    tried = [*model.reasons.sentences] if why else []
     return Model(
         model.level, model.form, model.elements, model.method, float(f"{model.error:.1E}"),
         spec.cable.pulls_only, tried,

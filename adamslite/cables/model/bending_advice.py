@@ -45,7 +45,7 @@ def losses(spec: Spec, spans: list[FreeSpan], tension: float, bending: float) ->
     return found
 
 
-def told(spec: Spec, spans: list[FreeSpan], tension: float) -> list[str]:
+def sentences(spec: Spec, spans: list[FreeSpan], tension: float) -> list[str]:
     """Sentences about bending in the head of the deck."""
     cable = spec.cable
     bending = cable.bending or cable.stiffness * cable.diameter**2 / ROD

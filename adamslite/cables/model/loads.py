@@ -165,7 +165,7 @@ def _check_strain(rope: Rope, tension: float | None) -> None:
 
 
 def are_determined(ropes: list[Rope], loads: tuple[Load, ...]) -> bool:
-    """Whether statics alone tells the tensions of all cables on loads."""
+    """Whether statics alone determines the tensions of all cables on loads."""
     columns = np.array([_column(rope, loads) for rope in ropes]).T
     columns = columns[:, columns.any(axis=0)]
     matrix = np.hstack([columns, _hinges(loads)])

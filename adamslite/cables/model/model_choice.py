@@ -49,8 +49,8 @@ class Reasons:
     more: tuple[str, ...] = ()
 
     @property
-    def told(self) -> tuple[str, ...]:
-        """All of them in the order in which they are told."""
+    def sentences(self) -> tuple[str, ...]:
+        """All of them in the order in which they are reported."""
         followed = f"{self.method}; ERROR {self.error}"
         return (*self.level, *self.form, *self.elements, followed, *self.more)
 

@@ -137,8 +137,8 @@ def _recovered(route: Route, of: Recovered, posture: Posture) -> _Cable:
 
     def advised(p: float) -> tuple[Advice, list[str]]:
         model = of._replace(demand=demand).chosen(p)
-        choice = p, model, model.reasons.told, demand
-        return _chosen(*choice), _why(model.reasons.told)
+        choice = p, model, model.reasons.sentences, demand
+        return _chosen(*choice), _why(model.reasons.sentences)
 
     chain = max(route.chains, key=lambda each: sum(link.free for link in each[0].links))[0]
     gained = (demand.least / demand.length, demand.most / demand.length)
@@ -225,9 +225,9 @@ def _chosen(p: float, model: CableModel, reasons: Sequence[str], demand: Demand)
     """As advice, with the cost where that is known."""
     name, sections = model.method.split(",")[0], model.elements * (model.level > 1)
     same = advise(demand, p)
-    told = (same.level, same.elements, same.integrator) == (model.level, sections, name)
+    alike = (same.level, same.elements, same.integrator) == (model.level, sections, name)
     form = model.form if model.level == 3 else ""
-    return Advice(p, model.level, form, sections, name, model.error, same.cost if told else 0.0)
+    return Advice(p, model.level, form, sections, name, model.error, same.cost if alike else 0.0)
 
 
 def _why(reasons: Sequence[str]) -> list[str]:

@@ -46,7 +46,7 @@ class Found:
     finest: Option | None = None
 
     @property
-    def told(self) -> str:
+    def summary(self) -> str:
         """What was found, in a sentence; empty where nothing was solved."""
         if self.off == inf:
             return ""
@@ -180,17 +180,17 @@ class _Choice:
     def _reasons(self, chosen: Tried, off: float, where: str) -> Reasons:
         """Why this model: what was tried."""
         before, option = self.proposed.model, chosen.option
-        told = [f"{self._named(option)} by trial: {self._share(off)} off"]
+        reasons = [f"{self._named(option)} by trial: {self._share(off)} off"]
         if chosen is self.rungs[-1] and not self.doubts:
-            told = [f"{self._named(option)}, the finest that was tried"]
+            reasons = [f"{self._named(option)}, the finest that was tried"]
         elif chosen is self.rungs[-1]:
-            told[0] += " by how differences fall"
+            reasons[0] += " by how differences fall"
         else:
-            told[0] += f" in the {where}, against {self._named(self.rungs[-1].option)}"
-        told += self._not_taken(option)
+            reasons[0] += f" in the {where}, against {self._named(self.rungs[-1].option)}"
+        reasons += self._not_taken(option)
         if before.level != option.level or before.elements != option.elements:
-            told.append(f"the linear model asks for {self._of_model(before)}")
-        return replace(self._chosen_by_trial(chosen), elements=tuple(told))
+            reasons.append(f"the linear model asks for {self._of_model(before)}")
+        return replace(self._chosen_by_trial(chosen), elements=tuple(reasons))
 
     def _chosen_by_trial(self, chosen: Tried) -> Reasons:
         """Why this level, form, method and ERROR."""
@@ -207,7 +207,7 @@ class _Choice:
 
     def _not_taken(self, chosen: Option) -> list[str]:
         """What less would have been."""
-        told = []
+        reasons = []
         for option, one in self.others.items():
             less = {
                 f"level {option.level}": option.level < chosen.level,
@@ -222,8 +222,8 @@ class _Choice:
             if words and (alike or option.level < chosen.level):
                 off, _ = self.trial.off(one, self.rungs[-1])
                 cheaper = ", and no cheaper" * self._does(one)
-                told.append(f"{words[0]}: {self._share(off)} off{cheaper}")
-        return told
+                reasons.append(f"{words[0]}: {self._share(off)} off{cheaper}")
+        return reasons
 
     def _share(self, off: float) -> str:
         """Of a figure, in per cent."""

@@ -54,8 +54,8 @@ def run(args: argparse.Namespace) -> int:
     written, warnings = found.deck.text, found.deck.messages
     if warnings:
         sys.stderr.write(render(warnings) + "\n\n")
-    if told := found.told:
-        sys.stderr.write(f"{args.spec}: {told}\n")
+    if summary := found.summary:
+        sys.stderr.write(f"{args.spec}: {summary}\n")
     if args.output:
         with whole_file(Path(args.output)) as stream:
             stream.write(written)

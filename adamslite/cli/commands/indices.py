@@ -1,6 +1,6 @@
 """Sobol indices of a sweep: which number is behind the variance of a measure
 
-RUNS is the file of `adamslite sweep ... --sample saltelli:N`. For each measure a table tells the
+RUNS is the file of `adamslite sweep ... --sample saltelli:N`. For each measure a table has the
 part of its variance that each number is behind by itself (first) and together with others (total),
 with intervals of 95 % from resampling the runs. All runs must have reached their end.
 """

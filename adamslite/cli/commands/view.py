@@ -240,11 +240,11 @@ def _sweep(args: argparse.Namespace, kind: str, output: Path) -> int:
         deck = adamslite.read(args.deck, args.user)
     progress = TalkingProgress()
     try:
-        page, told = page_of_sweep(found, deck, numbers, args.channels, progress)
+        page, different = page_of_sweep(found, deck, numbers, args.channels, progress)
     finally:
         progress.close()
-    if told:
-        sys.stderr.write(f"adamslite: {told}\n")
+    if different:
+        sys.stderr.write(f"adamslite: {different}\n")
     write_page(page, output)
     sys.stderr.write(f"{output}\n")
     if not (args.output or args.no_open):

@@ -25,7 +25,7 @@ from adamslite.language.messages.fixes import fixes
 from adamslite.language.messages.needless import NEEDLESS
 from adamslite.language.text import Ignored, ignored
 
-# What is known only when deck and commands have been read, or is told by `check` alone.
+# What is known only when deck and commands have been read, or is reported by `check` alone.
 WHOLE = ("no-run", *NEEDLESS)
 
 
