@@ -88,8 +88,17 @@ def copy(folder: Path) -> Path:
 
 
 def linked(whole: Path, folder: Path) -> Path:
-    """A copy of a copy by links: tests write nothing into it, a fault writes a file of its own."""
-    return Path(shutil.copytree(whole, folder / "tree", copy_function=os.link))
+    """A copy of a copy: sources are copied, since the program is known by facts of its sources that
+    a link changes; the rest is linked, because tests write nothing there.
+    """
+    return Path(shutil.copytree(whole, folder / "tree", copy_function=_brought))
+
+
+def _brought(source: str, target: str) -> None:
+    if source.endswith((".py", ".lark")):
+        shutil.copy2(source, target)
+    else:
+        os.link(source, target)
 
 
 def _left_out(folder: str, names: list[str]) -> list[str]:
