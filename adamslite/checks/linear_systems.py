@@ -94,7 +94,7 @@ def sizes_of_matrices(deck: Deck) -> Iterator[Diagnostic]:
     for system in deck.of(Lse):
         known = {field: deck.find(Matrix, key) for field, key in system.named.items()}
         found = {field: each for field, each in known.items() if each and each.complete}
-        if len(found) == len(known):
+        if "a" in found and len(found) == len(known):
             yield from _shapes(deck, system, found)
 
 

@@ -60,8 +60,9 @@ class Described(NamedTuple):
 
     def choices(self, accuracies: Sequence[float], end: float, steps: int) -> Iterator[Choice]:
         """Without a word about the model in the description, for its accuracy and others, in a run
-        to `end`."""
+        to `end`; in that of the description where `end` is 0, for a deck without a run."""
         given = self.drawn.given
+        end, steps = (end, steps) if end > 0 else (given.end, given.steps)
         known: list[tuple[Spec, Demand]] = []
         for p in sorted({given.accuracy, *accuracies}, reverse=True):
             asked = self.drawn.asking(p, end, steps)

@@ -36,6 +36,8 @@ ACCURACIES = (0.01, 0.001)
 # Cables that differ are reported one by one; of more than this many the rest is only counted, and
 # none has its linear model solved.
 MOST = 6
+#: No figure of a cable is larger, whatever its units: squares and products stay numbers.
+LARGEST = 1e60
 
 
 def about_cables(deck: Deck, commands: Iterable[Command] = ()) -> list[str]:
@@ -88,7 +90,14 @@ def _demand(
         found = demand_on(chain, posture, end, results, linear)
     except Unknown:
         return None
-    return replace(found, demand=_in_si(found.demand, posture.deck))
+    demand = _in_si(found.demand, posture.deck)
+    return replace(found, demand=demand) if _is_of_this_world(demand) else None
+
+
+def _is_of_this_world(demand: Demand) -> bool:
+    """Whether products of its figures stay within the range of numbers."""
+    figures = demand.stiffness, demand.density, demand.length, demand.tension, demand.moved
+    return all(abs(figure) < LARGEST for figure in figures)
 
 
 def _found(deck: Deck, commands: Iterable[Command]) -> list[_Cable]:
