@@ -101,7 +101,10 @@ def _found(
     weights = coordinate_weights(model).ravel()
     size = max(1e-30, float(np.ptp(posture.x, axis=0).max(initial=0.0)), float(weights.max()) / 10)
     for _ in range(1 + count):
-        motions = _motions(model, held, posture, weights)
+        rows = _rows(model, held, posture, weights)
+        if not (np.isfinite(rows).all() and np.isfinite(weights).all()):
+            return  # a size or an inertia beyond the range of numbers, or below zero
+        motions = _free(rows, weights)
         found = Mobility(model, posture, motions, weights, tuple(held))
         yield found
         free = found.motions.shape[1]
@@ -123,8 +126,18 @@ def _found(
 def _motions(
     model: Model, held: Sequence[Constraint], posture: Posture, weights: np.ndarray
 ) -> np.ndarray:
-    n = WIDTH * len(model.bodies)
-    rows = unit_rows(gradient(model, posture, held) / weights)
+    return _free(_rows(model, held, posture, weights), weights)
+
+
+def _rows(
+    model: Model, held: Sequence[Constraint], posture: Posture, weights: np.ndarray
+) -> np.ndarray:
+    return unit_rows(gradient(model, posture, held) / weights)
+
+
+def _free(rows: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    """What satisfies these rows of motions that are weighted."""
+    n = len(weights)
     full = np.zeros((max(len(rows), n), n))
     full[: len(rows)] = rows
     _, sizes, motions = np.linalg.svd(full)

@@ -85,14 +85,19 @@ def inertia_at_mass_centre(deck: Deck) -> Iterator[Diagnostic]:
     hidden = [p for p in deck.of(Part) if p.ip and not p.ground and p.mass and not is_plain(p)]
     if not hidden:
         return
+    from numpy import errstate, isfinite
     from numpy.linalg import eigvalsh
 
     from adamslite.model.model import Model
 
-    model = Model(deck)
+    with errstate(all="ignore"):
+        model = Model(deck)
     for part in hidden:
         body = model.bodies[model.body_index["PART", part.key]]
-        reason = no_body((eigvalsh(body.inertia) * deck.ucf).tolist())
+        if not isfinite(body.inertia).all():
+            reason = "its moments about its mass centre are beyond the range of numbers"
+        else:
+            reason = no_body((eigvalsh(body.inertia) * deck.ucf).tolist())
         if reason:
             yield diagnose(part, "bad-inertia", "ip", reason=reason)
 
