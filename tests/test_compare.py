@@ -187,6 +187,12 @@ def test_a_spline_through_what_is_not_a_number_is_inside_nothing(value: float) -
     assert not found.inside
 
 
+def test_a_spline_whose_slopes_are_larger_than_any_number_is_inside_nothing() -> None:
+    run = table([0.0, 1e-300, 2.0, 3.0], [0.0, 1e300, 2.0, 3.0])
+    found = compare(run, table([0.5], [0.5]), Tolerance(abs=10.0), interpolate="cubic")
+    assert not found.inside
+
+
 def test_one_row_is_a_constant() -> None:
     run = table([1.0, 1.0], [2.0, 3.0])
     assert compare(run, table([1.0], [3.0]), interpolate="cubic").inside

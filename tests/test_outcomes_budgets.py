@@ -13,6 +13,7 @@ from scenes import GROUND, chain, done, run
 
 import adamslite as al
 from adamslite import Outcome
+from adamslite.analyses import dynamic
 from adamslite.analyses.output_times import spread_times
 from adamslite.analyses.worker import Worker
 from adamslite.cli.main import main
@@ -153,6 +154,30 @@ def test_a_kinematic_analysis_counts_its_outputs() -> None:
     results = ended_early(crank, None, None, max_steps=30)
     assert results.outcome is Outcome.STEP_LIMIT and results.summary["steps"] == 30
     np.testing.assert_allclose(results.time, np.linspace(0.0, 0.3, 31))
+
+
+# Masses on hard springs, drawn far out: a first interval is tried with ever shorter steps.
+DRAWN = POINT.replace("QG=1,0,0", "QG=0,0,9") + (
+    "POINT_MASS/3, MASS=1, CM=3, QG=0,1,0\nMARKER/3, POINT_MASS=3\n"
+    "SFORCE/1, TRANSLATIONAL, I=2, J=1, FUNCTION=-2E7*(DM(2,1)-1)\n"
+    "SFORCE/2, TRANSLATIONAL, I=3, J=2, FUNCTION=-2E7*(DM(3,2)-1)\nEND\n"
+)
+
+
+def test_steps_that_become_shorter_in_one_interval_are_watched() -> None:
+    """Tries that are refused end the time for which a run goes unwatched."""
+    results = ended_early(with_integrator(DRAWN, "VERLET, ERROR=1E-12"), 1.0, 1, cpu_limit=0.2)
+    assert results.outcome is Outcome.CPU_LIMIT and results.summary["rejected"] > 0
+
+
+def test_an_interval_that_is_paused_goes_on_as_it_would(monkeypatch: pytest.MonkeyPatch) -> None:
+    deck = with_integrator(DRAWN, "VERLET, ERROR=1E-6")
+    whole = run(deck, end=1e-3, steps=2)
+    monkeypatch.setattr(dynamic, "UNWATCHED", 100)
+    paused = run(deck, end=1e-3, steps=2)
+    counts = [[each.summary[word] for word in ("steps", "rejected")] for each in (whole, paused)]
+    assert counts[0] == counts[1] and counts[0][1] > 0
+    assert whole.values.tobytes() == paused.values.tobytes()
 
 
 @pytest.mark.parametrize("method", METHODS)

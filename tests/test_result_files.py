@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
+import struct
 import sys
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 from scipy.io import loadmat, netcdf_file, savemat
+from scipy.sparse import csc_array
 
 import adamslite
 from adamslite.cli.main import main
 from adamslite.errors import FormatError, UsageError
 from adamslite.outputs import number_text
+from adamslite.outputs.mat_file import variables
 from adamslite.results.formats import formats
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
@@ -159,6 +163,51 @@ def test_matlab_without_units_is_read(tmp_path: Path) -> None:
     assert Results.load(tmp_path / "a.mat").names == ("x", "\u00e4")
 
 
+def test_matlab_texts_of_every_kind_are_read(tmp_path: Path) -> None:
+    """Cells of texts and of cells, texts in other letters, rows of characters of equal length."""
+    times, numbers = np.arange(2), np.array([[1, 2, 3], [-4, 5, 6]], dtype=np.int8)
+    inner = np.array(["\u4e09"], dtype=object)
+    for names in (np.array(["\u00e4", "x y", inner], dtype=object), np.array(["\u00e4", "x y", "z"])):
+        savemat(tmp_path / "a.mat", {"time": times, "values": numbers, "names": names})
+        found = Results.load(tmp_path / "a.mat")
+        assert found.names[:2] == ("\u00e4", "x y") and found.names[2] in ("\u4e09", "z")
+        assert found.values.tolist() == numbers.tolist() and found.values.dtype == float
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    st.sampled_from(["<f8", ">f8", "<f4", "<i8", "<u8", "<i4", ">u2", "<i2", "u1", "i1", "bool"]),
+    st.integers(0, 3), st.integers(0, 4), st.booleans(),
+)  # fmt: skip
+def test_matlab_files_are_read_as_scipy_reads_them(
+    kind: str, rows: int, columns: int, packed: bool
+) -> None:
+    values = np.random.default_rng(rows).integers(0, 100, (rows, columns)).astype(kind)
+    memory = BytesIO()
+    savemat(memory, {"other": np.eye(3), "a": values, "s": {"b": "text"}}, do_compression=packed)
+    found, theirs = variables(memory.getvalue()), loadmat(BytesIO(memory.getvalue()))
+    assert set(found) == {"other", "a", "s"} and found["a"].shape == values.shape
+    mine = found["a"].numbers().reshape(values.shape, order="F")
+    assert mine.tolist() == theirs["a"].tolist() == values.tolist()
+    assert found["s"].fields()["b"].text() == "text"
+
+
+@pytest.mark.parametrize(
+    ("values", "said"),
+    [
+        (np.eye(2) * 1j, "no full matrix of real numbers"),
+        (csc_array(np.eye(2)), "no full matrix of real numbers"),
+        (np.array([["a", "b"]], dtype=object), "no full matrix of real numbers"),
+    ],
+    ids=["complex", "sparse", "cells"],
+)
+def test_matlab_numbers_that_are_no_results_are_named(values, said: str, tmp_path: Path) -> None:
+    names = np.array(["x", "y"], dtype=object)
+    savemat(tmp_path / "a.mat", {"time": [0.0, 1.0], "values": values, "names": names})
+    with pytest.raises(FormatError, match=f"'values' is {said}"):
+        Results.load(tmp_path / "a.mat")
+
+
 # ---- bad files -----------------------------------------------------------------------------------
 
 
@@ -180,6 +229,7 @@ BAD = {
     "nothing": b"",
     "HDF5": b"\x89HDF\r\n\x1a\n" + bytes(100),
     "zeros": bytes(1000),
+    "MATLAB 4": struct.pack("<5i", 0, 1, 1, 0, 5) + b"time\0" + bytes(200),
     "MATLAB 7.3": b"MATLAB 7.3 MAT-file, Platform" + bytes(1000),
 }
 

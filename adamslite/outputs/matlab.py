@@ -14,14 +14,13 @@ from __future__ import annotations
 import struct
 import zlib
 from io import BytesIO
-from math import prod
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from adamslite.errors import FormatError
 from adamslite.language.text import contents
+from adamslite.outputs.mat_file import Matrix, variables
 from adamslite.outputs.whole_files import whole_file
 from adamslite.results.channels import with_units
 from adamslite.results.formats import register_format
@@ -31,8 +30,7 @@ from adamslite.results.untrusted import need_plausible
 
 NEEDED = ("time", "values", "names")
 NEW = b"MATLAB 7.3 MAT-file"
-FAULTS = (ValueError, TypeError, IndexError, KeyError, OSError, OverflowError, struct.error,
-          zlib.error, NotImplementedError, MemoryError)  # fmt: skip
+FAULTS = (ValueError, LookupError, OverflowError, struct.error, zlib.error, MemoryError)
 
 
 def write(results: Results, path: str | Path) -> None:
@@ -68,50 +66,37 @@ def read(path: str | Path) -> Results:
     FormatError
         When it is no such file, or is cut off.
     """
-    from scipy.io import loadmat, whosmat
-    from scipy.io.matlab import MatReadError
-
     data = contents(path)
     if data.startswith(NEW):
         raise FormatError(f"{path} is of MATLAB 7.3 (HDF5); write it in MATLAB with save -v7")
     try:
-        shapes = [shape for _, shape, _ in whosmat(BytesIO(data))]
-        need_plausible(sum(map(prod, shapes)), len(data))
-        found = loadmat(BytesIO(data), squeeze_me=False)
+        found = variables(data)
         missing = [name for name in NEEDED if name not in found]
         if not missing:
+            need_plausible(sum(found[name].size for name in NEEDED), len(data))
             return _results(found)
     except FormatError as fault:
         raise FormatError(f"{path}: {fault}") from None
-    except (*FAULTS, MatReadError) as fault:
+    except FAULTS as fault:
         raise FormatError(f"{path} is no MATLAB file, or is damaged: {fault}") from None
     raise FormatError(f"{path}: there is no variable '{missing[0]}' in it")
 
 
-def _results(found: dict[str, Any]) -> Results:
-    names = tuple(_text(cell) for cell in found["names"].ravel())
-    time = np.array(found["time"], dtype=float).ravel()
-    values = np.array(found["values"], dtype=float, order="C").reshape(len(time), len(names))
-    units = [_text(cell) for cell in found["units"].ravel()] if "units" in found else []
+def _results(found: dict[str, Matrix]) -> Results:
+    names = tuple(found["names"].texts())
+    time = found["time"].numbers()
+    values = found["values"].numbers()
+    values = np.ascontiguousarray(values.reshape(len(names), len(time)).T)  # column by column
+    units = found["units"].texts() if "units" in found else []
     run = restored(_run(found))
     channels = {} if run["source"] else with_units(dict(zip(names, units, strict=False)))
     return Results(time=time, names=names, values=values, channels=channels, **run)
 
 
-def _run(found: dict[str, Any]) -> dict[str, str]:
+def _run(found: dict[str, Matrix]) -> dict[str, str]:
     """The struct ``run`` as texts by field."""
-    run = found.get("run")
-    fields = (run.dtype.names if run is not None and run.size else None) or ()
-    return {name: _text(run[0, 0][name]) for name in fields}  # type: ignore[index]
-
-
-def _text(cell: Any) -> str:
-    """A text, which loadmat gives as arrays of texts in arrays; an empty one has no elements."""
-    while isinstance(cell, np.ndarray):
-        if cell.size == 0:
-            return ""
-        cell = cell.ravel()[0]
-    return str(cell)
+    fields = found["run"].fields() if "run" in found else {}
+    return {name: each.text() for name, each in fields.items()}
 
 
 register_format(

@@ -342,7 +342,9 @@ def _at_output_times(
 
 
 def _cubic(covered: np.ndarray, history: np.ndarray, times: np.ndarray) -> np.ndarray:
-    """All of a spline depends on each of its points: one that is not finite leaves no value."""
+    """All of a spline depends on each of its points: one that is not finite, or slopes that are
+    larger than any number, leave no value.
+    """
     from scipy.interpolate import CubicSpline
 
     last = np.append(np.diff(covered) > 0.0, True)  # of records at one time
@@ -350,7 +352,11 @@ def _cubic(covered: np.ndarray, history: np.ndarray, times: np.ndarray) -> np.nd
         return np.full(times.shape, np.nan)
     if last.sum() < 2:
         return np.full(times.shape, history[-1])
-    return CubicSpline(covered[last], history[last])(times)
+    with np.errstate(over="ignore", invalid="ignore"):
+        try:
+            return CubicSpline(covered[last], history[last])(times)
+        except ValueError:  # of slopes that are not finite
+            return np.full(times.shape, np.nan)
 
 
 def _difference(

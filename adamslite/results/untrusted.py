@@ -23,19 +23,32 @@ MOST = 1 << 27
 TIMES = 100
 
 
-def inflated(data: bytes) -> bytes:
+def inflated(data: bytes | memoryview, most: int | None = None) -> bytes:
     """What zlib has compressed.
+
+    Parameters
+    ----------
+    data : bytes
+    most : int, optional
+        How much it may be [bytes]; ``MOST`` unless given.
 
     Raises
     ------
     ValueError, zlib.error
-        When it is more than ``MOST``, or damaged.
+        When it is more than that, is cut off, or is damaged.
     """
-    stream = zlib.decompressobj()
-    found = stream.decompress(data, MOST)
-    if stream.unconsumed_tail:
-        raise ValueError(f"a compressed text in it is larger than {MOST:.2g} bytes")
+    stream, most = zlib.decompressobj(), MOST if most is None else most
+    found = stream.decompress(data, most + 1)  # 0 would mean any size
+    if len(found) > most:
+        raise ValueError(f"what is compressed in it is larger than {most:.2g} bytes")
+    if not stream.eof:
+        raise ValueError("what is compressed in it ends early")
     return found
+
+
+def plausible(file_size: int) -> int:
+    """How large what a file of so many bytes holds may become [bytes]."""
+    return max(MOST, TIMES * file_size)
 
 
 def need_plausible(count: int, file_size: int) -> None:
@@ -52,7 +65,7 @@ def need_plausible(count: int, file_size: int) -> None:
     ------
     FormatError
     """
-    if 8 * count > max(MOST, TIMES * file_size):
+    if 8 * count > plausible(file_size):
         raise FormatError(
             f"{file_size / 1e6:.1f} MB of file would become {8 * count / 1e6:.0f} MB of numbers: "
             "results are not that much alike"

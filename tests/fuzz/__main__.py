@@ -31,7 +31,6 @@ from fuzz.guarded import FAULTS, Child, Verdict, verdicts  # noqa: E402
 from fuzz.kinds import KINDS  # noqa: E402
 from fuzz.minimise import minimised  # noqa: E402
 
-SAMPLED = [name for name, kind in KINDS.items() if kind.sample]
 #: Cases between two lines about how far it is.
 SHOWN = 10_000
 
@@ -42,8 +41,8 @@ def arguments(words: Sequence[str] | None = None) -> argparse.Namespace:
         prog="python tests/fuzz", description=__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )  # fmt: skip
-    parser.add_argument("--kind", nargs="+", choices=KINDS, default=SAMPLED, metavar="KIND",
-                        help=f"of {', '.join(KINDS)}; all but mat unless given")  # fmt: skip
+    parser.add_argument("--kind", nargs="+", choices=KINDS, default=list(KINDS), metavar="KIND",
+                        help=f"of {', '.join(KINDS)}; all unless given")  # fmt: skip
     parser.add_argument("--cases", type=int, help="of each kind; unless given those of the tests")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--first", type=int, default=0, help="number of the first case")

@@ -45,7 +45,7 @@ class Kind:
     make: Callable[[int, int], Case]
     meet: Callable[[Case, Path], str]
     sample: int
-    """Cases among the tests; 0 keeps the kind out of them."""
+    """Cases among the tests."""
 
 
 def at_random(make: Callable[[Random], Case]) -> Callable[[int, int], Case]:
@@ -276,10 +276,8 @@ KINDS: Mapping[str, Kind] = {
     "toml": Kind("descriptions of cable scenes", changed_description, cable, 800),
     **{
         each: Kind(f"files .{each} are read and compared", changed_results(f".{each}"), diff, 600)
-        for each in ("csv", "nc", "res", "req", "parquet")
+        for each in ("csv", "nc", "res", "req", "parquet", "mat")
     },
-    # The reader of scipy ends the process by a signal for some damaged files.
-    "mat": Kind("files .mat are read and compared", changed_results(".mat"), diff, 0),
     "lsp": Kind("sessions of an editor", at_random(lsp_messages.session), lsp_messages.serve, 100),
     "solve": Kind("short runs with every method", changed_run, solve, 60),
 }

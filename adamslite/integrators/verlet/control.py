@@ -14,6 +14,8 @@ class Control(Record):
     limit                the longest step that is stable, with a margin
     longest              the longest stable step of any look
     wanted               the step to try in the next interval
+    tried                the step to try in this one, after others were too long; zero before that
+    blown                how many of these have ended in numbers without bound
     since                steps since the look at the eigenvalues
     spent                sum of the errors of the present try, against ERROR
     top, mean            the largest local error of the present try, and the mean of all
@@ -24,9 +26,11 @@ class Control(Record):
     limit: float
     longest: float
     wanted: float
+    tried: float
     since: int
     spent: float
     top: float
     mean: float
+    blown: int
     row: int
     fixed: bool

@@ -125,7 +125,7 @@ def begin(P: Problem, C: Control) -> None:
 def advance(P: Problem, L: Plan, C: Control) -> int:
     """From one output time to the next over all stops between; returns an outcome."""
     limit_step(P, C)
-    at, end, outcome = P.times[C.row - 1], P.times[C.row], DONE
+    at, end, outcome = P.report.t, P.times[C.row], DONE
     if is_time_to_pause(P, (end - at) / (C.wanted if C.fixed else min(C.wanted, C.limit))):
         return PAUSED
     while at < end and outcome == DONE:
@@ -211,7 +211,7 @@ def cover(P: Problem, L: Plan, C: Control, t: float, end: float) -> int:
     for i in range(n):
         old[i], old[n + i] = P.q[i], P.u[i]
     keep_audit(P)
-    wanted, blown = min(C.wanted, longest_step(P)), 0
+    wanted, blown = min(C.wanted if C.tried == 0.0 else C.tried, longest_step(P)), C.blown
     least = min(P.settings.h_min, longest_step(P))
     while not P.settings.stop:
         if not fixed:
@@ -222,12 +222,15 @@ def cover(P: Problem, L: Plan, C: Control, t: float, end: float) -> int:
         refused = refusal(P, C, h, count, wanted < least or blown == MOST_BLOWN)
         if refused != RUNNING:
             return refused
+        if C.tried > 0.0 and is_time_to_pause(P, float(count)):
+            return PAUSED
         error = take_steps(P, L, C, t, h, count)
         P.report.error = error
         stable = stable_in_contact(P, C, t, h) if error <= 1.0 else HUGE
         P.report.stable_step = min(P.report.stable_step, stable)
         if error <= 1.0 and h <= (stable if fixed else IN_CONTACT * stable):
             P.report.spent += C.spent
+            C.tried, C.blown = 0.0, 0
             note_advance(P, h, count)
             C.wanted = choose_step(P, C, error, h, wanted)
             return DONE
@@ -240,6 +243,7 @@ def cover(P: Problem, L: Plan, C: Control, t: float, end: float) -> int:
         )
         if error <= 1.0:
             wanted = min(0.5 * h, IN_CONTACT * stable)
+        C.tried, C.blown = wanted, blown
         for i in range(n):
             P.q[i], P.u[i] = old[i], old[n + i]
         bring_audit_back(P)
