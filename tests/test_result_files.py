@@ -167,7 +167,10 @@ def test_matlab_texts_of_every_kind_are_read(tmp_path: Path) -> None:
     """Cells of texts and of cells, texts in other letters, rows of characters of equal length."""
     times, numbers = np.arange(2), np.array([[1, 2, 3], [-4, 5, 6]], dtype=np.int8)
     inner = np.array(["\u4e09"], dtype=object)
-    for names in (np.array(["\u00e4", "x y", inner], dtype=object), np.array(["\u00e4", "x y", "z"])):
+    for names in (
+        np.array(["\u00e4", "x y", inner], dtype=object),
+        np.array(["\u00e4", "x y", "z"]),
+    ):
         savemat(tmp_path / "a.mat", {"time": times, "values": numbers, "names": names})
         found = Results.load(tmp_path / "a.mat")
         assert found.names[:2] == ("\u00e4", "x y") and found.names[2] in ("\u4e09", "z")

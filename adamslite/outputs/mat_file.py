@@ -17,7 +17,6 @@ Source: MAT-File Format (The MathWorks, R2024a).
 from __future__ import annotations
 
 import struct
-import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import prod
