@@ -27,6 +27,8 @@ from adamslite.outputs.saved_files import SavedFiles
 from adamslite.results import untrusted
 from adamslite.results.results import Results
 
+# A block that ends before it begins: read again and again, with more memory each time.
+BACKWARDS = b"FILE TYPE AND SOURCE".ljust(40) + b"1\n!\n" + b"!".ljust(40) + b"-0\n"
 SPACE = 'xmlns="http://www.mscsoftware.com/:xrf10"'
 LAUGHS = "<!DOCTYPE r [<!ENTITY a 'ha'>" + "".join(
     f"<!ENTITY {chr(98 + k)} '{f'&{chr(97 + k)};' * 10}'>" for k in range(9)
@@ -102,6 +104,7 @@ CASES: dict[str, tuple[str, Callable[[], bytes], str]] = {
     "bytes of MATLAB": (".mat", lambda: matlab(1_300_000, np.int8), "not that much alike"),
     "packed zeros of MATLAB": (".mat", lambda: packed_matlab(20_000_000), "in it is larger"),
     "zeros of Parquet": (".parquet", lambda: parquet(3_000_000), "results are not that much alike"),
+    "less than no lines": (".res", lambda: BACKWARDS, "damaged or cut off: the block in line 3"),
     "many requests": (".req", lambda: b"A.R3 d\nt\n999999999 u\n1 2 3\n", "damaged or cut off"),
 }  # fmt: skip
 

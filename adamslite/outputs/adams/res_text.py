@@ -53,7 +53,7 @@ def _blocks(lines: list[str]) -> Iterator[tuple[str, list[str]]]:
     while at < len(lines):
         title, count = lines[at][:TITLE].strip(), int(lines[at][TITLE : TITLE + PLACES])
         end = at + count
-        if lines[end].strip() != "!":
+        if count < 1 or lines[end].strip() != "!":
             raise ValueError(f"the block in line {at + 1} does not end in line {end + 1}")
         yield title, lines[at + 1 : end]
         at = end + 1
