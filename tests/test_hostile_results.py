@@ -28,7 +28,7 @@ from adamslite.results import untrusted
 from adamslite.results.results import Results
 
 # A block that ends before it begins: read again and again, with more memory each time.
-BACKWARDS = b"FILE TYPE AND SOURCE".ljust(40) + b"1\n!\n" + b"!".ljust(40) + b"-0\n"
+BACKWARDS = b"FILE TYPE AND SOURCE".ljust(40) + b"1\n!\n" + b"TITLE".ljust(40) + b"-1\n"
 SPACE = 'xmlns="http://www.mscsoftware.com/:xrf10"'
 LAUGHS = "<!DOCTYPE r [<!ENTITY a 'ha'>" + "".join(
     f"<!ENTITY {chr(98 + k)} '{f'&{chr(97 + k)};' * 10}'>" for k in range(9)
