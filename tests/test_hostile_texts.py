@@ -16,8 +16,10 @@ from adamslite.language.diagnostics import MOST, QUOTED, LeftOut, limited
 from adamslite.language.likeness import did_you_mean
 from adamslite.language.messages import MESSAGES
 from adamslite.reading import resolver
-from adamslite.syntax import forms
+from adamslite.syntax import forms, lines, tokens
+from adamslite.syntax.lines import join
 from adamslite.syntax.tokens import scan
+from adamslite.syntax.typeset import Plain
 from benchmarks.hostile_texts import BODIES, KINDS
 
 DECK = f"{BODIES}! what follows is wrong\n"
@@ -85,6 +87,23 @@ def test_comments_that_ignore_nothing_are_counted_too():
     assert sum(each.code == "ignores-nothing" for each in found) + found[-1].numbers[2] >= 500
 
 
+def test_a_text_of_mistakes_is_not_read_to_its_end(monkeypatch):
+    """What is behind is not read, and nothing is said to be missing for that."""
+    monkeypatch.setattr("adamslite.language.messages.MOST_COUNTED", 100)
+    wrong = "ZZZ/1\n" * 1000
+    found = told(f"{DECK}{wrong}PART/7, MASS=-1\n")
+    assert found[-1].last_line == 6 + MOST + 100
+    assert f"reading ended in line {6 + MOST + 100} " in found[-1].render()
+    assert found.counts == f"{MOST + 100} errors, 0 warnings"
+    assert found == limited([*found, *found[:0]])
+    behind = told(f"hostile\n{wrong}{DECK}")
+    assert {each.code for each in behind} == {"unknown-statement", "more-messages"}
+
+
+def test_reading_goes_on_where_all_mistakes_are_counted():
+    assert told(DECK + "ZZZ/1\n" * 1000)[-1].last_line == 0
+
+
 # ---- short messages ------------------------------------------------------------------------------
 
 
@@ -149,12 +168,88 @@ def test_one_wrong_letter_is_found_among_many_names():
     assert did_you_mean("right_bogie_777", names) == ""
 
 
+# ---- one sweep -----------------------------------------------------------------------------------
+
+WORDS = (
+    *'",\\()[]=/:;*&!+-.', "**", "* *", "1D+3", "90D", "1E-5", ".5", "1.", "MARKER", "a.b.c",
+    "\n", "\n,", "\n ! more\n", " ", "\t", '"quoted, text"', "\\alpha", "\\Delta  x", "\u0394",
+    " " * 70,
+)  # fmt: skip
+
+
+def tokens_of(text):
+    """All tokens, from however many stretches."""
+    return [token for stretch in scan(text) for token in stretch]
+
+
+def test_tokens_do_not_depend_on_where_a_text_is_cut(monkeypatch):
+    """Nor do the statements, which look at the tokens behind their last one."""
+    random = Random(19)
+    for _ in range(1500):
+        text = "".join(random.choices(WORDS, k=random.randint(1, 150)))
+        whole, joined = tokens_of(text), [*join(scan(text), ampersand=True)]
+        with monkeypatch.context() as cut:
+            cut.setattr(tokens, "STRETCH", random.choice([8, 20, 90]))
+            cut.setattr(lines, "MANY", random.choice([9, 20, 512]))
+            assert tokens_of(text) == whole
+            pieces = [*join(scan(text), ampersand=True)]
+        assert [([*each.tokens], each.name) for each in pieces] == [
+            ([*each.tokens], each.name) for each in joined
+        ]
+
+
+@pytest.mark.parametrize("piece", [",", "(", "1,", "=a", '"', "a\\", "\\text{a}, "])
+def test_a_line_of_any_length_is_scanned_in_stretches(piece):
+    """No stretch grows with the line."""
+    lengths = [len(stretch) for stretch in scan(piece * (1_000_000 // len(piece)))]
+    assert max(lengths) <= 4 * tokens.STRETCH and len(lengths) > 3
+
+
+def test_columns_of_tokens_are_as_a_list_of_them():
+    listed = tokens_of("MARKER/1, PART=2, QP=1,2,3\n" * 30)
+    columns = tokens.Lexemes(listed[:99])
+    for many in (3, len(listed)):
+        kept = [*columns[:50], listed[0], *columns[50:]]
+        columns = tokens.lengthened(tokens.Lexemes(kept[:-1]), [kept[-1]])
+        columns.append(listed[many - 1])
+        assert [*columns] == [*kept, listed[many - 1]] and len(columns) == len(kept) + 1
+        assert columns[-1] == listed[many - 1] and columns[2:5] == kept[2:5]
+        assert columns.pop() == listed[many - 1]
+    columns.insert(1, listed[2])
+    columns[0] = listed[3]
+    assert columns[:2] == [listed[3], listed[2]]
+
+
+def test_mathematics_is_looked_for_once():
+    """On one line with many signs that begin it, and one that ends it at last."""
+    for text in ("$$" * 40_000, "x" + "\\[" * 40_000 + "\\]", "$a$ " * 20_000):
+        Counted.looked = 0
+        Plain(Counted(text))
+        assert Counted.looked < 8 * len(text)
+
+
+class Counted(str):
+    """A text that counts the characters that are searched in it."""
+
+    looked = 0
+
+    def find(self, sub, start=0, end=None):
+        at = super().find(sub, start, len(self) if end is None else end)
+        Counted.looked += (at if at >= 0 else len(self) if end is None else end) - start
+        return at
+
+    def rfind(self, sub, start=0, end=None):
+        at = super().rfind(sub, start, end)
+        Counted.looked += (len(self) if end is None else end) - max(at, start)
+        return at
+
+
 # ---- long statements -----------------------------------------------------------------------------
 
 ITEMS = (
     "A=1", "FLAG", "7", "1 2 3 4 5 6", "F=IF(TIME: MAX(1,2,3,4,5,6), 2, 3)+1", "F=1+2+3+4+5+6+7",
     "F=SIN(1)+MAX[2, 3]+SIN(3)+A()+DX(1,2)+DX(3,4)",
-    "(1, 2, 3, 4, 5, 6)",
+    "(1, 2, 3, 4, 5, 6)", "((1, (2, 3)), [4 5, (6)], 7, 8)", "A=1 ((((1)))) [2] ()",
 )  # fmt: skip
 KINDS_OF_TOKENS = (
     "NAME NUMBER PLUS SLASH COLON OTHER COMMA EQUAL BACKSLASH LPAR RPAR LSQB RSQB".split()
@@ -167,7 +262,7 @@ def random_kinds(random):
         random.choice(ITEMS) + random.choice([",", ",", ",", "\\", "\\,"])
         for _ in range(random.randint(1, 9))
     )
-    kinds = [token[0] for stretch in scan(text) for token in stretch]
+    kinds = [token[0] for token in tokens_of(text)]
     del kinds[len(kinds) - random.randint(0, 1) :]
     for _ in range(random.randint(0, 2)):
         kinds.insert(random.randrange(len(kinds)), random.choice(KINDS_OF_TOKENS))
@@ -183,7 +278,8 @@ def test_a_long_statement_is_parsed_by_pieces_as_it_is_as_a_whole(monkeypatch):
     for _ in range(3000):
         kinds = random_kinds(random)
         whole = forms._short_form(kinds)
-        assert forms._long_form(kinds) == whole
+        pieces = forms._long_form(kinds)
+        assert (pieces if isinstance(pieces, forms.Fault) else tuple(pieces)) == whole
         right += not isinstance(whole, forms.Fault)
     assert 500 < right < 2500
 

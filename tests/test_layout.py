@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from random import Random
 
 import pytest
 from hypothesis import given, settings
@@ -20,7 +21,13 @@ from adamslite.resources import find
 
 FOLDERS = sorted({path.parent for path in find("decks").rglob("*.adm")})
 FIRST = [min(folder.glob("*.adm")) for folder in FOLDERS]
+LONG = "a" * 70
+"""No line has room for it and for another word."""
 LAYOUTS = {
+    "what is before a word that fills a line stays together": (
+        f"MARKER/200, PART=1005, QP=0.1,0,{LONG}",
+        f"MARKER/200, PART=1005, QP=0.1,0\n, {LONG}",
+    ),
     "keywords in full and in capitals, names as they are": (
         "spr/1, trans, i_m=2, J=1, k=5, length = 1\nM/2,P=1\nvari/Dm, func=step(Time,0,0,1,Ea)",
         "SPRINGDAMPER/1, TRANSLATIONAL, I_MARKER=2, J=1, K=5, LENGTH=1\n"
@@ -119,6 +126,38 @@ def test_a_deck_says_the_same_in_its_layout(path: Path) -> None:
 def test_every_deck_says_the_same_in_its_layout(folder: Path) -> None:
     for path in folder.glob("*.adm"):
         assert_same_deck(read_text(path).text)
+
+
+WORDS = (
+    "a" * 90,
+    "a" * 45,
+    "1," * 30,
+    ",",
+    "\n,",
+    "\\",
+    "(",
+    ")",
+    " ",
+    "! why\n",
+    "=",
+    "TIME+",
+    "7",
+)
+"""What makes lines that fit nowhere."""
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_layout_of_lines_that_cannot_be_broken_is_its_own_layout(seed: int) -> None:
+    random = Random(seed)
+    texts = [text for path in FIRST if len(text := read_text(path).text) < 3000]
+    for _ in range(40):
+        text = random.choice(texts)
+        for _ in range(random.randint(1, 4)):
+            at = random.randrange(len(text))
+            text = text[:at] + random.choice(WORDS) + text[at:]
+        place = random.choice(["deck", "deck", "command"])
+        layout = formatted(text, place)
+        assert formatted(layout, place) == layout
 
 
 @pytest.mark.slow

@@ -202,6 +202,13 @@ def test_a_signed_exponent_with_d_is_reported_in_expressions(written: str) -> No
     assert not deck_with("VARIABLE/1, IC=1D-3, FUNCTION=90D + 2*TIME").warnings
 
 
+@pytest.mark.parametrize("before", ["", "TIME + ", "SIN(TIME)*"])
+def test_only_the_signed_exponent_is_marked(before: str) -> None:
+    text = f"VARIABLE/1, FUNCTION={before}90D+2*TIME"
+    (only,) = deck_with(text).warnings
+    assert only.source_line[only.span.column - 1 : only.span.end_column - 1] == "90D+2"
+
+
 def test_a_vector_may_stand_in_brackets() -> None:
     assert last("MARKER/4, PART=1, QP=(1, -2, 3), REULER=90D, 0D, 1D-3").qp == (1, -2, 3)
     assert last("MARKER/4, PART=(1), REULER=90D,0D,1D-3").reuler == (math.pi / 2, 0, 1e-3)

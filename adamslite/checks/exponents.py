@@ -7,12 +7,13 @@ from collections.abc import Iterator
 
 from adamslite.deck.deck import Deck
 from adamslite.deck.names import to_number
-from adamslite.deck.statement_diagnostics import diagnose_inside
+from adamslite.deck.statement_diagnostics import diagnose_within
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.statement import Statement
 from adamslite.syntax.tokens import scan
 
-SIGNED = re.compile(r"[\d.][Dd][+-]\d")
+# The letter comes first: few texts have many of them, and all have digits.
+SIGNED = re.compile(r"[Dd][+-](?<=[\d.][Dd][+-])\d")
 
 
 def exponents_or_degrees(deck: Deck) -> Iterator[Diagnostic]:
@@ -30,9 +31,10 @@ def _inside(statement: Statement, field: str) -> Iterator[Diagnostic]:
     text = statement.spans.home(field).text(field)
     if not SIGNED.search(text):
         return
-    for kind, word, _ in (token for stretch in scan(text) for token in stretch):
+    for kind, word, at in (token for stretch in scan(text) for token in stretch):
         if kind == "NUMBER" and SIGNED.search(word):
             power = word.upper().replace("D", "E")
             words = {"text": word, "value": to_number(word), "power": power}
-            yield diagnose_inside(statement, word, "exponent-or-degrees", field, **words)
+            place = at, at + len(word)
+            yield diagnose_within(statement, field, place, "exponent-or-degrees", **words)
             return

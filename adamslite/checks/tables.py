@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from math import dist, isfinite
 
@@ -20,6 +21,8 @@ from adamslite.language.statement import Statement, expressions
 # Chords of the same length but for round-off and few digits.
 EVEN = 1.01
 FITS = ("AKISPL", "CUBSPL")
+TAKEN = re.compile(r"ARYVAL\((.*),(\d+)\)")
+"""The name of a constant of an ARRAY in an expression that has taken it."""
 
 
 def spline_points(deck: Deck) -> Iterator[Diagnostic]:
@@ -138,13 +141,13 @@ def arrays(deck: Deck) -> Iterator[Diagnostic]:
 
 def values_of_arrays(deck: Deck) -> Iterator[Diagnostic]:
     """Whether what expressions have taken from an ARRAY is still there."""
-    known = {name for array in deck.of(Array) for name in array.constants()}
+    known = {f"{array.key}": len(array.numbers) for array in deck.of(Array) if array.numbers}
     for statement in deck.statements if known else ():
         for node in expressions(statement):
             for each in walk(node):
-                name = each.name if isinstance(each, Num) else ""
-                if name.startswith("ARYVAL") and name not in known:
-                    yield diagnose(statement, "value-lost", word=name)
+                taken = TAKEN.fullmatch(each.name) if isinstance(each, Num) else None
+                if taken and int(taken[2]) > known.get(taken[1], 0):
+                    yield diagnose(statement, "value-lost", word=taken[0])
 
 
 def matrices(deck: Deck) -> Iterator[Diagnostic]:

@@ -50,6 +50,16 @@ def diagnose_inside(
     return _at(statement, code, field, place, "", words)
 
 
+def diagnose_within(
+    statement: Owner, field: str, place: tuple[int, int], code: str, **words: object
+) -> Diagnostic:
+    """A message about some characters of an argument, counted from its beginning."""
+    spans = statement.spans.home(field)
+    start, _ = spans.ranges[field]
+    span = spans.source.span(start + place[0], start + place[1]) if spans.source else spans.whole
+    return _at(statement, code, field, span, "", words)
+
+
 def _at(
     statement: Owner, code: str, field: str, span: Span, hint: str, words: Mapping[str, object]
 ) -> Diagnostic:

@@ -15,7 +15,7 @@ from adamslite.language.spelling import spelled
 from adamslite.language.statement import Argument, Statement
 from adamslite.language.text import COMMENT
 from adamslite.reading.statement_reader import known_keywords
-from adamslite.syntax.tokens import CLOSES, Lexeme
+from adamslite.syntax.tokens import CLOSES, Tokens
 
 STATEMENT, ARGUMENT, OPTION, ID, FUNCTION, VARIABLE, MESSAGE = range(7)
 """Kinds of suggestions."""
@@ -50,7 +50,7 @@ def completion(content: Content, offset: int) -> list[Suggestion]:
     return list(_inside(content, cls, tokens))
 
 
-def _without_word(tokens: list[Lexeme], offset: int) -> list[Lexeme]:
+def _without_word(tokens: Tokens, offset: int) -> Tokens:
     """The tokens before the word that is being written."""
     if not tokens:
         return tokens
@@ -58,7 +58,7 @@ def _without_word(tokens: list[Lexeme], offset: int) -> list[Lexeme]:
     return tokens[:-1] if kind in ("NAME", "NUMBER") and start + len(text) >= offset else tokens
 
 
-def _inside(content: Content, cls: type[Statement], tokens: list[Lexeme]) -> Iterator[Suggestion]:
+def _inside(content: Content, cls: type[Statement], tokens: Tokens) -> Iterator[Suggestion]:
     """Suggestions behind the slash of a statement."""
     if not cls.singleton and len(tokens) == 2:
         if content.place == "command" and cls.place == "deck":
@@ -77,7 +77,7 @@ def _inside(content: Content, cls: type[Statement], tokens: list[Lexeme]) -> Ite
         yield from _arguments(cls, tokens)
 
 
-def _argument_at(cls: type[Statement], tokens: list[Lexeme]) -> Argument | None:
+def _argument_at(cls: type[Statement], tokens: Tokens) -> Argument | None:
     """The argument whose value the end of the tokens is in."""
     words = vocabulary(cls)
     depth = 0
@@ -90,7 +90,7 @@ def _argument_at(cls: type[Statement], tokens: list[Lexeme]) -> Argument | None:
     return None
 
 
-def _opened(tokens: list[Lexeme]) -> list[int]:
+def _opened(tokens: Tokens) -> list[int]:
     """The numbers of the brackets that are open at the end."""
     found: list[int] = []
     for number, token in enumerate(tokens):
@@ -101,7 +101,7 @@ def _opened(tokens: list[Lexeme]) -> list[int]:
     return found
 
 
-def _expression(content: Content, tokens: list[Lexeme], opened: list[int]) -> Iterator[Suggestion]:
+def _expression(content: Content, tokens: Tokens, opened: list[int]) -> Iterator[Suggestion]:
     """Inside an expression: ids where a function takes one, else functions and names."""
     if opened and (function := FUNCTIONS.get(spelled(tokens[opened[-1] - 1][1]).upper())):
         depth = count = 0
@@ -145,7 +145,7 @@ def _statements(content: Content) -> Iterator[Suggestion]:
             yield Suggestion(keyword, STATEMENT, "", keyword if cls.ends else f"{keyword}/")
 
 
-def _arguments(cls: type[Statement], tokens: list[Lexeme]) -> Iterator[Suggestion]:
+def _arguments(cls: type[Statement], tokens: Tokens) -> Iterator[Suggestion]:
     """Arguments that are not given yet."""
     words = vocabulary(cls)
     pairs = zip(tokens, tokens[1:], strict=False)

@@ -30,9 +30,22 @@ def filled(pieces: list[Piece], source: str) -> list[list[Piece]]:
             line = []
         line.append(piece)
         while at := _break(line, bool(lines)):
-            lines.append(line[:at])
+            if _closes_up(lines, line, at):
+                lines[-1] = lines[-1] + line[:at]
+            else:
+                lines.append(line[:at])
             line = line[at:]
     return [*lines, line]
+
+
+def _closes_up(lines: Sequence[list[Piece]], line: Sequence[Piece], at: int) -> bool:
+    """Whether the begin of a line, broken inside a list, has a place on the line before it.
+
+    The next time that break is one between rows, which stays, and the line would be filled so.
+    """
+    if not lines or line[0].depth > 0 or line[0].expression or line[at].depth != 1:
+        return False
+    return len(joined([*lines[-1], *line[:at]], len(lines) > 1)) <= WIDTH
 
 
 def _break(line: Sequence[Piece], continues: bool) -> int:

@@ -20,7 +20,7 @@ from adamslite.reading.statement_reader import Reading, known_keywords
 from adamslite.syntax.forms import Item
 from adamslite.syntax.lines import Logical, join
 from adamslite.syntax.syntax_errors import Syntax, statement_syntax
-from adamslite.syntax.tokens import Lexeme, end_of, scan
+from adamslite.syntax.tokens import Lexeme, Tokens, end_of, scan
 
 TEXTS = ("text", "texts")
 """Kinds of arguments whose values are kept letter by letter."""
@@ -45,7 +45,7 @@ class Given(NamedTuple):
     argument: Argument | None
     key: Lexeme | None
     word: str
-    values: list[list[Lexeme]]
+    values: list[Tokens]
     closed: list[bool]
 
     @property
@@ -62,7 +62,7 @@ class Given(NamedTuple):
 class Written:
     """A statement as written; ``given`` is None where it cannot be told from mistakes."""
 
-    tokens: list[Lexeme]
+    tokens: Tokens
     name: str | None
     cls: type[Statement] | None = None
     given: list[Given] | None = None

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from adamslite.deck.names import RESERVED
 from adamslite.editing.outline import Given, Written
 from adamslite.language.function import FUNCTIONS
-from adamslite.syntax.tokens import CLOSES, OPERATORS, Lexeme, end_of
+from adamslite.syntax.tokens import CLOSES, OPERATORS, Lexeme, Tokens, end_of
 
 NEVER = 99
 """Depth of a place where no line should break."""
@@ -83,7 +83,7 @@ def _argument(source: str, given: Given, glue: str, depth: int) -> Iterator[Piec
 
 
 def _tokens(
-    tokens: list[Lexeme], glue: str, depth: int, expression: bool, capitals: bool
+    tokens: Tokens, glue: str, depth: int, expression: bool, capitals: bool
 ) -> Iterator[Piece]:
     """The pieces of one value; ``glue`` and ``depth`` are those before it."""
     brackets = 0

@@ -308,19 +308,27 @@ class LeftOut(Diagnostic):
     ----------
     numbers : tuple of int
         For each of :data:`SEVERITIES`.
+    last_line : int
+        Where reading ended because of them; 0 where it did not.
     """
 
     numbers: tuple[int, ...] = (0,) * len(SEVERITIES)
+    last_line: int = 0
 
     @classmethod
-    def of(cls, numbers: Iterable[int]) -> LeftOut:
+    def of(cls, numbers: Iterable[int], last_line: int = 0) -> LeftOut:
         """The message about so many errors, warnings and notes."""
         found = tuple(numbers)
         named = [(n, kind) for n, kind in zip(found, SEVERITIES, strict=True) if n]
         listed = ", ".join(f"{n} {kind}{'s' * (n != 1)}" for n, kind in named)
         sentence = f"there is more to say than the {MOST} messages that are kept: {listed}"
         hint = "correct what comes first, and check again"
-        return cls("more-messages", named[0][1], sentence, hint=hint, numbers=found)
+        if last_line:
+            hint = f"reading ended in line {last_line} because of them: {hint}"
+        severity = named[0][1]
+        return cls(
+            "more-messages", severity, sentence, hint=hint, numbers=found, last_line=last_line
+        )
 
 
 def numbers_of(diagnostics: Iterable[Diagnostic]) -> tuple[int, ...]:
@@ -345,7 +353,8 @@ def limited(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
     by_weight = sorted(range(len(own)), key=lambda n: SEVERITIES.index(own[n].severity))
     kept = [own[n] for n in sorted(by_weight[:MOST])]
     left = [a - b for a, b in zip(numbers_of(every), numbers_of(kept), strict=True)]
-    return [*kept, LeftOut.of(left)]
+    ends = [each.last_line for each in every if isinstance(each, LeftOut)]
+    return [*kept, LeftOut.of(left, max(ends, default=0))]
 
 
 def sort_by_place(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:

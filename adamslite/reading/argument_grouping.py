@@ -6,7 +6,7 @@ the next ``KEY=``.  Keywords may be shortened to any prefix that fits one argume
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from adamslite.language.abbreviations import Ambiguous, vocabulary
@@ -18,7 +18,7 @@ from adamslite.language.statement import STATEMENTS, Argument, Statement
 from adamslite.reading.argument_values import Refused, ValueReader
 from adamslite.syntax.forms import Item
 from adamslite.syntax.syntax_errors import Syntax
-from adamslite.syntax.tokens import OPERATORS, Lexeme, end_of
+from adamslite.syntax.tokens import OPERATORS, Lexeme, Tokens, end_of, lengthened
 
 
 class Read(NamedTuple):
@@ -52,12 +52,12 @@ class Pieces:
 
     def __init__(self, argument: Argument, start: int) -> None:
         self.argument = argument
-        self.values: list[list[Lexeme]] = []
+        self.values: list[Tokens] = []
         self.start = start
         self.end = 0
         """Where a flag ends, which may be shortened; 0: where its last value does."""
         self.closed = False
-        self.before: list[list[list[Lexeme]]] = []
+        self.before: list[list[Tokens]] = []
         """The values of the same keyword where it was given before."""
 
     @property
@@ -86,7 +86,7 @@ class Grouping:
         for word in filter(None, syntax.cut):
             self._guess(self.words.keyed(word))
 
-    def collect(self, items: tuple[Item, ...]) -> dict[str, Pieces]:
+    def collect(self, items: Iterable[Item]) -> dict[str, Pieces]:
         """The pieces of each argument that is given, by field name."""
         for item in items:
             self.take(item)
@@ -194,11 +194,11 @@ class Grouping:
             if current.argument.kind in _LISTS:
                 current.values.append(piece)
             else:
-                current.values[0] += piece
+                current.values[0] = lengthened(current.values[0], piece)
         elif not self.skipping:
             self._stray(piece)
 
-    def _stray(self, piece: list[Lexeme]) -> None:
+    def _stray(self, piece: Tokens) -> None:
         """A value of no argument: after a whole number it may be the decimals of that."""
         text, place, current = self._text(piece), (piece[0][2], end_of(piece[-1])), self.current
         words, hint, point = {"text": text}, "", None
@@ -210,7 +210,7 @@ class Grouping:
                 point = fix(self.log.source, f"write {whole}.{text}", (after, place[0], "."))
         self.log.say("unexpected-value", place, words, hint, fix=point)
 
-    def _text(self, piece: list[Lexeme]) -> str:
+    def _text(self, piece: Tokens) -> str:
         text = self.log.source.text[piece[0][2] : end_of(piece[-1])]
         return " ".join(text.split())
 
@@ -266,7 +266,7 @@ class Grouping:
 def read_arguments(
     cls: type[Statement],
     syntax: Syntax,
-    items: tuple[Item, ...],
+    items: Sequence[Item],
     reader: ValueReader,
     label: str,
     partial: bool = False,

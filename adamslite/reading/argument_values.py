@@ -18,7 +18,7 @@ from adamslite.language.spelling import spelled
 from adamslite.language.statement import Argument, Statement
 from adamslite.reading.expression_names import Unresolved
 from adamslite.reading.resolver import Resolver
-from adamslite.syntax.tokens import CLOSES, Lexeme, end_of
+from adamslite.syntax.tokens import CLOSES, Tokens, end_of
 
 GROUND = "GROUND"
 
@@ -27,14 +27,14 @@ class Refused(Exception):
     """A value could not be read; the reason has been logged."""
 
 
-def unwrapped(tokens: list[Lexeme]) -> list[Lexeme]:
+def unwrapped(tokens: Tokens) -> Tokens:
     """The tokens without brackets round the whole of them."""
     while len(tokens) > 1 and tokens[0][0] in CLOSES and _closing(tokens) == len(tokens) - 1:
         tokens = tokens[1:-1]
     return tokens
 
 
-def _closing(tokens: list[Lexeme]) -> int:
+def _closing(tokens: Tokens) -> int:
     """The number of the bracket that closes the first one."""
     depth = 0
     for number, token in enumerate(tokens):
@@ -44,9 +44,9 @@ def _closing(tokens: list[Lexeme]) -> int:
     return -1
 
 
-def split(tokens: list[Lexeme], separator: str) -> list[list[Lexeme]]:
+def split(tokens: Tokens, separator: str) -> list[Tokens]:
     """The stretches between separators that stand outside all brackets."""
-    parts: list[list[Lexeme]] = [[]]
+    parts: list[Tokens] = [[]]
     depth = 0
     for token in tokens:
         depth += (token[0] in CLOSES) - (token[0] in CLOSES.values())
@@ -57,7 +57,7 @@ def split(tokens: list[Lexeme], separator: str) -> list[list[Lexeme]]:
     return parts
 
 
-def to_id(tokens: list[Lexeme]) -> Key | None:
+def to_id(tokens: Tokens) -> Key | None:
     """The id that tokens spell, a number or a name as written; None when they spell none."""
     if len(tokens) != 1:
         tokens = unwrapped(tokens)
@@ -97,9 +97,7 @@ class ValueReader:
         self.resolver = resolver
         self.log = log
         self.ground = ground
-        self._kinds: dict[
-            str, Callable[[type[Statement], Argument, list[list[Lexeme]]], object]
-        ] = {
+        self._kinds: dict[str, Callable[[type[Statement], Argument, list[Tokens]], object]] = {
             "number": self._one_number,
             "vector": self._vector,
             "integer": self._integer,
@@ -114,21 +112,21 @@ class ValueReader:
             "words": self._words,
         }
 
-    def value(self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]) -> object:
+    def value(self, cls: type[Statement], argument: Argument, values: list[Tokens]) -> object:
         """The value of ``argument``; raises :class:`Refused` after logging what is wrong."""
         return self._kinds[argument.kind](cls, argument, values)
 
-    def _refuse(self, code: str, tokens: list[Lexeme], hint: str = "", **words: object) -> NoReturn:
+    def _refuse(self, code: str, tokens: Tokens, hint: str = "", **words: object) -> NoReturn:
         self.log.add(code, tokens[0][2], end_of(tokens[-1]), hint, **words)
         raise Refused
 
-    def _written(self, tokens: list[Lexeme]) -> str:
+    def _written(self, tokens: Tokens) -> str:
         text = self.log.source.text[tokens[0][2] : end_of(tokens[-1])]
         return " ".join(text.split())
 
     # ---- numbers ------------------------------------------------------------------------------
 
-    def _number(self, argument: Argument, tokens: list[Lexeme]) -> float:
+    def _number(self, argument: Argument, tokens: Tokens) -> float:
         sign = -1.0 if tokens[0][0] == "MINUS" else 1.0
         plain = tokens[1:] if len(tokens) == 2 and tokens[0][0] in ("MINUS", "PLUS") else tokens
         if len(plain) == 1 and plain[0][0] == "NUMBER":
@@ -147,19 +145,17 @@ class ValueReader:
             self._refuse("number-too-large", tokens, word=self._written(tokens))
         return value
 
-    def _one_number(
-        self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]
-    ) -> float:
+    def _one_number(self, cls: type[Statement], argument: Argument, values: list[Tokens]) -> float:
         return self._number(argument, values[0])
 
-    def _integer(self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]) -> int:
+    def _integer(self, cls: type[Statement], argument: Argument, values: list[Tokens]) -> int:
         value = self._number(argument, values[0])
         if not value.is_integer():
             self._refuse("not-an-integer", values[0], word=argument.key)
         return int(value)
 
     def _vector(
-        self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]
+        self, cls: type[Statement], argument: Argument, values: list[Tokens]
     ) -> tuple[float, ...]:
         if len(values) == 1 and values[0][0][0] in CLOSES:
             values = split(unwrapped(values[0]), "COMMA")
@@ -172,14 +168,14 @@ class ValueReader:
         return tuple([self._number(argument, tokens) for tokens in values])
 
     def vectors(
-        self, cls: type[Statement], argument: Argument, rows: list[list[list[Lexeme]]]
+        self, cls: type[Statement], argument: Argument, rows: list[list[Tokens]]
     ) -> tuple[tuple[float, ...], ...]:
         """The lists of an argument that may be given several times."""
         return tuple([self._vector(cls, argument, row) for row in rows])
 
     # ---- words --------------------------------------------------------------------------------
 
-    def _choice(self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]) -> str:
+    def _choice(self, cls: type[Statement], argument: Argument, values: list[Tokens]) -> str:
         option = self._option(argument, unwrapped(values[0]) or values[0])
         for given_up, instead in argument.discontinued:
             if option == given_up:
@@ -195,7 +191,7 @@ class ValueReader:
             raise Refused
         return option
 
-    def _option(self, argument: Argument, tokens: list[Lexeme]) -> str:
+    def _option(self, argument: Argument, tokens: Tokens) -> str:
         word = spelled(tokens[0][1]).upper()
         single = len(tokens) == 1 and tokens[0][0] == "NAME"
         found = match(word, {option: option for option in argument.options}) if single else None
@@ -208,45 +204,43 @@ class ValueReader:
         return found
 
     def _words(
-        self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]
+        self, cls: type[Statement], argument: Argument, values: list[Tokens]
     ) -> tuple[str, ...]:
         parts = split(unwrapped(values[0]), "COLON")
         return tuple(self._option(argument, part or values[0]) for part in parts)
 
-    def _text(self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]) -> str:
+    def _text(self, cls: type[Statement], argument: Argument, values: list[Tokens]) -> str:
         tokens = values[0]
         text = self.log.source.text[tokens[0][2] : end_of(tokens[-1])]
         return text[1:-1] if len(text) > 1 and text[0] == text[-1] == '"' else text
 
     def _texts(
-        self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]
+        self, cls: type[Statement], argument: Argument, values: list[Tokens]
     ) -> tuple[str, ...]:
         return tuple(self._text(cls, argument, [value]) for value in values)
 
     # ---- other statements ---------------------------------------------------------------------
 
-    def _reference(
-        self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]
-    ) -> Key:
+    def _reference(self, cls: type[Statement], argument: Argument, values: list[Tokens]) -> Key:
         return self._refer(argument, values[0])
 
     def _references(
-        self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]
+        self, cls: type[Statement], argument: Argument, values: list[Tokens]
     ) -> tuple[Key, ...]:
         return tuple([self._refer(argument, tokens) for tokens in values])
 
     def _ids(
-        self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]
+        self, cls: type[Statement], argument: Argument, values: list[Tokens]
     ) -> tuple[Key, ...]:
         return tuple([self._id(tokens) for tokens in values])
 
-    def _id(self, tokens: list[Lexeme]) -> Key:
+    def _id(self, tokens: Tokens) -> Key:
         key = to_id(tokens)
         if not key:
             self._refuse("bad-id", tokens, text=self._written(tokens))
         return key.upper() if isinstance(key, str) else key
 
-    def _refer(self, argument: Argument, tokens: list[Lexeme]) -> Key:
+    def _refer(self, argument: Argument, tokens: Tokens) -> Key:
         kind, key = argument.to, to_id(tokens)
         if key is None:
             self._refuse("not-a-reference", tokens, text=self._written(tokens), kind=kind)
@@ -266,7 +260,7 @@ class ValueReader:
         self.names.used(kind, found, inner[0][2], end_of(inner[-1]))
         return found
 
-    def components(self, argument: Argument, values: list[list[Lexeme]]) -> tuple[Node, ...]:
+    def components(self, argument: Argument, values: list[Tokens]) -> tuple[Node, ...]:
         """The components of a vector, or the routine that computes all of them."""
         try:
             if argument.key == ROUTINE_ARGUMENT:
@@ -275,9 +269,7 @@ class ValueReader:
         except Unresolved:
             raise Refused from None
 
-    def _expression(
-        self, cls: type[Statement], argument: Argument, values: list[list[Lexeme]]
-    ) -> Node:
+    def _expression(self, cls: type[Statement], argument: Argument, values: list[Tokens]) -> Node:
         try:
             value = self.resolver.expression(values[0])
         except Unresolved:

@@ -17,7 +17,7 @@ from adamslite.language.messages import Log
 from adamslite.language.not_supported import FUNCTIONS as PLANNED
 from adamslite.language.spelling import spelled
 from adamslite.syntax.forms import Tree
-from adamslite.syntax.tokens import Lexeme, end_of
+from adamslite.syntax.tokens import Lexeme, Tokens, end_of
 
 
 class Unresolved(Exception):
@@ -38,7 +38,7 @@ class ExpressionNames:
         self.log = log
         self.constants: dict[str, float] = {}
         """Numbers that statements of the deck give a name, unless a VARIABLE has it."""
-        self.tokens: list[Lexeme] = []
+        self.tokens: Tokens = []
         """Of the expression at hand."""
 
     def _name(self, at: int) -> Node:

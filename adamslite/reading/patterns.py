@@ -23,7 +23,7 @@ from adamslite.language.routines import USER
 from adamslite.reading.argument_grouping import Pieces, Read
 from adamslite.syntax.forms import Fault, Tree, expression_form
 from adamslite.syntax.syntax_errors import Waiting
-from adamslite.syntax.tokens import OPERATORS, Lexeme
+from adamslite.syntax.tokens import OPERATORS, Lexeme, Tokens
 
 Build = Callable[[Sequence[str]], Any]
 """A value from the texts of the tokens of a statement; raises :class:`Unfit`."""
@@ -219,7 +219,7 @@ class _Learner:
                 return self._expression(tokens[0], value)
         raise Unfit
 
-    def _number(self, tokens: list[Lexeme]) -> Build:
+    def _number(self, tokens: Tokens) -> Build:
         kinds = [token[0] for token in tokens]
         at = self.number_of[tokens[-1][2]]
         if kinds == ["NUMBER"]:
@@ -230,7 +230,7 @@ class _Learner:
             return lambda found: -plain(found[at])
         raise Unfit
 
-    def _reference(self, kind: str, tokens: list[Lexeme]) -> Build:
+    def _reference(self, kind: str, tokens: Tokens) -> Build:
         if len(tokens) != 1 or tokens[0][0] != "NUMBER":
             raise Unfit
         at, id_of = self.number_of[tokens[0][2]], self.patterns.id
@@ -238,7 +238,7 @@ class _Learner:
 
     # ---- expressions --------------------------------------------------------------------------
 
-    def _expression(self, tokens: list[Lexeme], value: Node) -> Build:
+    def _expression(self, tokens: Tokens, value: Node) -> Build:
         form = expression_form(tuple([token[0] for token in tokens]))
         if isinstance(form, Fault):
             raise Unfit

@@ -21,8 +21,8 @@ from adamslite.language.routines import USER, is_user_call
 from adamslite.language.spelling import spelled
 from adamslite.reading.expression_names import ExpressionNames, Unresolved
 from adamslite.syntax.forms import Fault, Tree, expression_form
-from adamslite.syntax.syntax_errors import expression_mistake
-from adamslite.syntax.tokens import OPERATORS, Lexeme
+from adamslite.syntax.syntax_errors import expression_mistake, kinds_of
+from adamslite.syntax.tokens import OPERATORS, Tokens
 
 DEEPEST = 100
 LONGEST = 100_000
@@ -62,34 +62,34 @@ class Resolver(ExpressionNames):
 
     # ---- entry points -------------------------------------------------------------------------
 
-    def expression(self, tokens: list[Lexeme]) -> Node:
+    def expression(self, tokens: Tokens) -> Node:
         """The resolved expression; raises :class:`Unresolved` after logging what is wrong."""
         value = self._value(tokens)
         if not isinstance(value, Components):
             return value
         self._refuse("vector-here", tokens[0], tokens[-1])
 
-    def routine(self, tokens: list[Lexeme]) -> Node:
+    def routine(self, tokens: Tokens) -> Node:
         """The same where a routine of the user has to be called."""
         value = self.expression(tokens)
         if is_user_call(value):
             return value
         self._refuse("routine-here", tokens[0], tokens[-1])
 
-    def components(self, tokens: list[Lexeme]) -> Components:
+    def components(self, tokens: Tokens) -> Components:
         """The same of an expression that is a vector."""
         value = self._value(tokens)
         if not isinstance(value, Components):
             self._refuse("number-here", tokens[0], tokens[-1])
         return value
 
-    def _value(self, tokens: list[Lexeme]) -> Value:
+    def _value(self, tokens: Tokens) -> Value:
         if len(tokens) > LONGEST:
             count = len(tokens)
             self._refuse(
                 "expression-too-long", tokens[0], tokens[-1], count=count, most=LONGEST
             )  # fmt: skip
-        form = expression_form(tuple([token[0] for token in tokens]))
+        form = expression_form(kinds_of(tokens))
         if isinstance(form, Fault):
             mistake = expression_mistake(tokens, form)
             self._refuse(mistake.code, tokens[mistake.first], tokens[mistake.last], **mistake.words)
@@ -98,11 +98,11 @@ class Resolver(ExpressionNames):
             raise Unresolved
         return node
 
-    def constant(self, tokens: list[Lexeme]) -> float | None:
+    def constant(self, tokens: Tokens) -> float | None:
         """The value of an expression of numbers only; None for anything else."""
         if len(tokens) > LONGEST:
             return None
-        form = expression_form(tuple([token[0] for token in tokens]))
+        form = expression_form(kinds_of(tokens))
         if isinstance(form, Fault):
             return None
         names = {spelled(t[1]).upper() for t in tokens if t[0] == "NAME"}
@@ -113,7 +113,7 @@ class Resolver(ExpressionNames):
 
     # ---- nodes --------------------------------------------------------------------------------
 
-    def _whole(self, tree: Tree, tokens: list[Lexeme]) -> Value:
+    def _whole(self, tree: Tree, tokens: Tokens) -> Value:
         self.tokens, self.failed = tokens, False
         return self._node(tree, 0)
 

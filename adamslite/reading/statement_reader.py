@@ -29,7 +29,7 @@ from adamslite.reading.patterns import Patterns
 from adamslite.reading.resolver import Resolver
 from adamslite.syntax.lines import join
 from adamslite.syntax.syntax_errors import Faults, Syntax, Waiting, statement_syntax
-from adamslite.syntax.tokens import end_of, scan
+from adamslite.syntax.tokens import Tokens, end_of, scan
 
 # A line that begins as a statement does.
 BEGINNING = re.compile(r"^[ \t]*(\w+)[ \t]*/", re.MULTILINE)
@@ -147,6 +147,9 @@ class Reading:
                 if cls.ends:
                     self._behind_end(syntax.range[1])
                     break
+            if self.log.overflows:
+                self._give_up(syntax.tokens if syntax else found[-1][1])
+                break
         for keyword, syntax in self._guesses:
             self._remember(keyword, syntax)
         return self._second_pass()
@@ -164,6 +167,11 @@ class Reading:
             word = syntax._replace(tokens=[syntax.tokens[item.start]], items=())
             self.entries.append(Entry(STATEMENTS["LIST"], self._waiting(word), 0, None))
         return syntax._replace(items=tuple(each for each in syntax.items if each not in named))
+
+    def _give_up(self, tokens: Tokens) -> None:
+        """Read nothing behind these tokens; any statement may be there."""
+        self.log.last_line, _ = self.log.source.place(tokens[-1][2])
+        self.broken |= STATEMENTS.keys()
 
     def _behind_end(self, start: int) -> None:
         """Warn of the first statement behind END; whatever else stands there is no concern."""

@@ -14,6 +14,7 @@ from __future__ import annotations
 import pickle
 import re
 import sys
+from array import array
 from collections.abc import Iterator, Sequence
 from functools import cache, lru_cache
 from hashlib import sha256
@@ -47,15 +48,14 @@ CODES = {
     )
 }  # fmt: skip
 """Kinds of tokens as letters: brackets, commas, and values, which may follow each other."""
-OTHER_END = {"(": ")", "[": "]", ")": "(", "]": "["}
+CLOSED_BY = {"(": ")", "[": "]"}
+TURNS = re.compile(r"[()\[\]x]")
+"""Brackets, and what may not be inside them."""
 
 
 def runs(least: int) -> tuple[re.Pattern[str], re.Pattern[str]]:
-    """So many values or more: with commas between them, as inside brackets, and without.  Brackets
-    with values in them are a value.
-    """
-    value = r"a|\([a,]*+\)|\[[a,]*+\]"
-    return re.compile(f"(?:,|{value}){{{least},}}+"), re.compile(f"(?:{value}){{{least},}}+")
+    """So many values or more: with commas between them, as inside brackets, and without."""
+    return re.compile(f"[a,]{{{least},}}+"), re.compile(f"a{{{least},}}+")
 
 
 RUN, VALUES = runs(99)
@@ -77,6 +77,35 @@ class Item(NamedTuple):
     start: int
     end: int
     closed: bool
+
+
+class Items(Sequence[Item]):
+    """The items of a long statement in a tenth of the memory of a tuple; slices have no steps."""
+
+    __slots__ = ("numbers",)
+
+    def __init__(self, numbers: array[int] | None = None) -> None:
+        self.numbers = array("i") if numbers is None else numbers
+
+    def add(self, key: int, start: int, end: int, closed: bool) -> None:
+        """One more item."""
+        self.numbers.extend((key, start, end, closed))
+
+    def __len__(self) -> int:
+        return len(self.numbers) // 4
+
+    def __iter__(self) -> Iterator[Item]:
+        each = iter(self.numbers)
+        for key, start, end, closed in zip(each, each, each, each, strict=True):
+            yield Item(key, start, end, bool(closed))
+
+    def __getitem__(self, at: Any) -> Any:
+        if isinstance(at, slice):
+            start, stop, _ = at.indices(len(self))
+            return Items(self.numbers[4 * start : 4 * stop])
+        first = 4 * range(len(self))[at]
+        key, start, end, closed = self.numbers[first : first + 4]
+        return Item(key, start, end, bool(closed))
 
 
 class _Replay(Lexer):
@@ -181,7 +210,7 @@ def _form(parser: Lark, kinds: tuple[str, ...]) -> Any:
         return Fault(len(kinds) if unexpected.token.type == "$END" else at)
 
 
-def statement_form(kinds: tuple[str, ...]) -> tuple[Item, ...] | Fault:
+def statement_form(kinds: tuple[str, ...]) -> Sequence[Item] | Fault:
     """The items of a statement from the kinds of its tokens."""
     return _short_form(kinds) if len(kinds) <= LONG else _long_form(kinds)
 
@@ -192,7 +221,7 @@ def _short_form(kinds: tuple[str, ...]) -> tuple[Item, ...] | Fault:
     return _form(_parser("deck", "statement"), kinds)
 
 
-def _long_form(kinds: tuple[str, ...]) -> tuple[Item, ...] | Fault:
+def _long_form(kinds: tuple[str, ...]) -> Items | Fault:
     """The items of a statement of any length, parsed piece by piece.
 
     Between two commas outside of brackets lie items that are those of a shorter statement; of many
@@ -204,11 +233,16 @@ def _long_form(kinds: tuple[str, ...]) -> tuple[Item, ...] | Fault:
     if deep is not None:
         before = statement_form(kinds[:deep])
         return Fault(min(deep, before.at)) if isinstance(before, Fault) else Fault(deep)
-    seen = _without_runs(kinds)
-    shorter = kinds if len(seen) == len(kinds) else tuple([kinds[at] for at in seen])
-    items: list[Item] = []
+    code = "".join([CODES.get(kind, "x") for kind in kinds])
+    flat = _flat(code)
+    seen = _without_runs(flat)
+    if len(seen) == len(kinds):
+        shorter = kinds
+    else:
+        shorter = tuple([kinds[n] if flat[n] == code[n] else "NUMBER" for n in seen])
+    items = Items()
     start = len(HEAD)
-    for end in _ends(shorter):
+    for end, following in _ends(shorter):
         form = _short_form(HEAD + shorter[start:end])
         shift = start - len(HEAD)
         if isinstance(form, Fault):
@@ -216,9 +250,9 @@ def _long_form(kinds: tuple[str, ...]) -> tuple[Item, ...] | Fault:
             return Fault(seen[at] if at < len(seen) else len(kinds))
         for key, first, last, closed in form:
             key = key if key < 0 else seen[key + shift]
-            items.append(Item(key, seen[first + shift], seen[last + shift - 1] + 1, closed))
-        start = end + 1
-    return tuple(items)
+            items.add(key, seen[first + shift], seen[last + shift - 1] + 1, closed)
+        start = following
+    return items
 
 
 def _too_deep(kinds: tuple[str, ...]) -> int | None:
@@ -229,9 +263,31 @@ def _too_deep(kinds: tuple[str, ...]) -> int | None:
     return next((at for at, depth in enumerate(opened) if depth > MOST_OPEN), None)
 
 
-def _without_runs(kinds: tuple[str, ...]) -> Sequence[int]:
+def _flat(code: str) -> str:
+    """Kinds as letters where a bracket with only values in it is a value, however deep it is."""
+    opened: list[int] = []
+    closed: list[tuple[int, int]] = []
+    for turn in TURNS.finditer(code):
+        at, sign = turn.start(), turn[0]
+        if sign in CLOSED_BY:
+            opened.append(at)
+        elif opened and CLOSED_BY[code[opened[-1]]] == sign:
+            first = opened.pop()
+            while closed and closed[-1][0] > first:
+                closed.pop()
+            closed.append((first, at + 1))
+        else:
+            opened.clear()
+    pieces: list[str] = []
+    done = 0
+    for first, end in closed:
+        pieces += code[done:first], "a" * (end - first)
+        done = end
+    return "".join([*pieces, code[done:]]) if closed else code
+
+
+def _without_runs(code: str) -> Sequence[int]:
     """Numbers of the tokens without those inside long runs of values, where each may be any."""
-    code = "".join([CODES.get(kind, "x") for kind in kinds])
     seen: list[int] = []
     done = counted = depth = 0
     for run in RUN.finditer(code, len(HEAD)):
@@ -240,28 +296,25 @@ def _without_runs(kinds: tuple[str, ...]) -> Sequence[int]:
         depth -= sum(code.count(each, counted, start) for each in ")]")
         counted = start
         for inner in (run,) if depth > 0 else VALUES.finditer(code, start, end):
-            first, last = inner.start(), inner.end() - 1
-            if code[first] in OTHER_END:
-                first = code.index(OTHER_END[code[first]], first)
-            if code[last] in OTHER_END:
-                last = code.rindex(OTHER_END[code[last]], first, last)
-            seen += range(done, first + 1)
-            done = last
-    return [*seen, *range(done, len(kinds))] if seen else range(len(kinds))
+            seen += range(done, inner.start() + 1)
+            done = inner.end() - 1
+    return [*seen, *range(done, len(code))] if seen else range(len(code))
 
 
-def _ends(kinds: tuple[str, ...]) -> Iterator[int]:
-    """Where pieces of a statement end: at commas between items, and at its own end."""
+def _ends(kinds: tuple[str, ...]) -> Iterator[tuple[int, int]]:
+    """Where pieces of a statement end and the next ones begin: at separators between items, and
+    at its own end.  A backslash belongs to the item before it.
+    """
     depth, least = 0, len(HEAD) + PIECE
     for at, kind in enumerate(kinds):
         if kind in SEPARATORS:
             between = kinds[at - 1] not in SEPARATORS and kinds[at + 1 : at + 2] != ("COMMA",)
-            if depth == 0 and at >= least and kind == "COMMA" and between and at + 1 < len(kinds):
-                yield at
+            if depth == 0 and at >= least and between and at + 1 < len(kinds):
+                yield at + (kind == "BACKSLASH"), at + 1
                 least = at + PIECE
         elif kind in BRACKETS:
             depth += BRACKETS[kind]
-    yield len(kinds)
+    yield len(kinds), len(kinds)
 
 
 @lru_cache(maxsize=8192)

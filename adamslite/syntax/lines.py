@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable, Iterator
+from itertools import chain
 from typing import NamedTuple
 
-from adamslite.syntax.tokens import CLOSES, OPERATORS, Lexeme
+from adamslite.syntax.tokens import CLOSES, MANY, OPERATORS, Lexeme, Lexemes, Tokens
 
 _JOINTS = {"LINE_END", "SEMICOLON", "AMPERSAND", "COMMENT", *CLOSES, *CLOSES.values()}
 # No statement begins with a number: a semicolon before one stands in a list, for a comma.
 NUMBERS = ("NUMBER", "PLUS", "MINUS")
 
+KEPT = 8
+"""Last tokens of a long statement that what follows may still change."""
+
 
 class Logical(NamedTuple):
     """The tokens of one statement, joined from its lines; ``name`` is its adams_view_name."""
 
-    tokens: list[Lexeme]
+    tokens: Tokens
     name: str | None
 
 
@@ -25,18 +29,29 @@ class _Joiner:
     def __init__(self, ampersand: bool) -> None:
         self.ampersand = ampersand
         self.tokens: list[Lexeme] = []
+        self.behind: list[Lexeme] = []
+        """The stretch after this one, which decides what its last tokens mean."""
         self.current: list[Lexeme] = []
+        self.before: Lexemes | None = None
+        """The tokens of a long statement before the current ones, which are some in any case."""
         self.depth = 0
         self.name: str | None = None
 
     def statements(self, stretches: Iterable[list[Lexeme]]) -> Iterator[Logical]:
-        for self.tokens in stretches:
-            yield from self._ended()
-        yield from self._finish()
+        following = iter(stretches)
+        self.tokens = next(following, [])
+        done = 0
+        for self.behind in chain(following, ([],)):
+            done = yield from self._ended(done)
+            self.tokens = self.behind
+        if self.current:
+            yield self._finished()
 
-    def _ended(self) -> Iterator[Logical]:
-        """The statements that end in the present stretch."""
-        tokens, done = self.tokens, 0
+    def _ended(self, done: int) -> Generator[Logical, None, int]:
+        """The statements that end in the present stretch, from token ``done`` on; returns how many
+        tokens of the next stretch belong to them.
+        """
+        tokens = self.tokens
         for at in [n for n, token in enumerate(tokens) if token[0] in _JOINTS]:
             if at < done:
                 continue
@@ -49,14 +64,28 @@ class _Joiner:
             elif kind == "SEMICOLON" and self.current and self._kind(done) in NUMBERS:
                 self.current.append(("OTHER", text, place))
             elif kind == "LINE_END" or kind == "SEMICOLON":
-                yield from self._finish()
-                self.name = view_name(text)
+                if self.current:
+                    yield self._finished()
+                self.name = view_name(text) if len(text) > 1 else None
             else:
                 done = self._joint(tokens[at], done)
         self.current += tokens[done:]
+        if len(self.current) > MANY:
+            self.before = self.before or Lexemes()
+            self.before.extend(self.current[:-KEPT])
+            del self.current[:-KEPT]
+        return max(0, done - len(tokens))
+
+    def _token(self, position: int) -> Lexeme | None:
+        """A token of this stretch or of the next one."""
+        if position < len(self.tokens):
+            return self.tokens[position]
+        position -= len(self.tokens)
+        return self.behind[position] if position < len(self.behind) else None
 
     def _kind(self, position: int) -> str:
-        return self.tokens[position][0] if position < len(self.tokens) else ""
+        token = self._token(position)
+        return token[0] if token else ""
 
     def _joint(self, token: Lexeme, position: int) -> int:
         """A bracket, an ampersand or a last comment; returns where to continue."""
@@ -81,17 +110,21 @@ class _Joiner:
             if len(current) > 1 and (current[-2][0] in OPERATORS or current[-2][0] in CLOSES):
                 current.pop()
         elif last[0] != "EQUAL" and (self.depth == 0 or argument):
-            current.append(self.tokens[position])
+            comma = self._token(position)
+            assert comma is not None
+            current.append(comma)
         if argument:
             self.depth = 0
 
-    def _finish(self) -> Iterator[Logical]:
-        current, name = self.current, self.name
+    def _finished(self) -> Logical:
+        """What is collected, which is a statement."""
+        current, before, name = self.current, self.before, self.name
         if len(current) > 2 and current[-1][0] == "SLASH":
             current.pop()
-        self.current, self.depth, self.name = [], 0, None
-        if current:
-            yield Logical(current, name)
+        self.current, self.before, self.depth, self.name = [], None, 0, None
+        if before:
+            before.extend(current)
+        return Logical(before or current, name)
 
 
 def join(stretches: Iterable[list[Lexeme]], ampersand: bool = False) -> Iterator[Logical]:

@@ -7,13 +7,14 @@ the others.
 from __future__ import annotations
 
 from array import array
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import NamedTuple, TypeAlias
 
 from adamslite.language.spelling import spelled
 from adamslite.syntax.forms import MOST_OPEN, Fault, Item, statement_form
 from adamslite.syntax.lines import Logical
-from adamslite.syntax.tokens import CLOSES, OPERATORS, Lexeme, end_of
+from adamslite.syntax.tokens import CLOSES, MANY, OPERATORS, Lexemes, Tokens, end_of, lengthened
 
 MOST_MISTAKES = 20
 """After so many in one statement the rest of it is skipped."""
@@ -48,8 +49,8 @@ class Syntax(NamedTuple):
     their keywords, empty for one that has none.
     """
 
-    tokens: list[Lexeme]
-    items: tuple[Item, ...]
+    tokens: Tokens
+    items: Sequence[Item]
     name: str | None
     whole: bool
     cut: tuple[str, ...] = ()
@@ -71,18 +72,25 @@ class Waiting(NamedTuple):
     kinds: tuple[str, ...]
     texts: tuple[str, ...]
     offsets: array[int]
-    rest: tuple[tuple[Item, ...], str | None, bool, tuple[str, ...]]
+    rest: tuple[Sequence[Item], str | None, bool, tuple[str, ...]]
 
     @classmethod
     def of(cls, syntax: Syntax) -> Waiting:
         """The same syntax, waiting."""
-        kinds, texts, offsets = zip(*syntax.tokens, strict=True)
+        tokens = syntax.tokens
+        if isinstance(tokens, Lexemes):
+            return cls((*tokens.kinds,), (*tokens.texts,), tokens.offsets, syntax[1:])
+        kinds, texts, offsets = zip(*tokens, strict=True)
         return cls(kinds, texts, array("I", offsets), syntax[1:])
 
     @property
     def syntax(self) -> Syntax:
         """The syntax as it was."""
-        return Syntax([*zip(self.kinds, self.texts, self.offsets, strict=True)], *self.rest)
+        if len(self.kinds) > MANY:
+            tokens: Tokens = Lexemes.of(self.kinds, self.texts, self.offsets)
+        else:
+            tokens = [*zip(self.kinds, self.texts, self.offsets, strict=True)]
+        return Syntax(tokens, *self.rest)
 
     @property
     def name(self) -> str | None:
@@ -97,7 +105,7 @@ class Waiting(NamedTuple):
         return self.offsets[0], self.offsets[-1] + len(self.texts[-1])
 
 
-Faults: TypeAlias = list[tuple[Mistake, list[Lexeme]]]
+Faults: TypeAlias = list[tuple[Mistake, Tokens]]
 """Mistakes, each with the tokens it counts."""
 
 
@@ -111,7 +119,7 @@ def statement_syntax(logical: Logical) -> tuple[Syntax | None, Faults]:
     cut: list[str] = []
     most = MOST_MISTAKES if len(tokens) <= LONG else FEWER_MISTAKES
     while True:
-        form = statement_form(tuple([token[0] for token in tokens]))
+        form = statement_form(kinds_of(tokens))
         if not isinstance(form, Fault):
             return Syntax(tokens, form, logical.name, not found, tuple(cut)), found
         mistake = _statement_mistake(tokens, form.at)
@@ -122,11 +130,18 @@ def statement_syntax(logical: Logical) -> tuple[Syntax | None, Faults]:
         cut += _keywords(item)
 
 
-def _kind(tokens: list[Lexeme], at: int) -> str:
+def kinds_of(tokens: Tokens) -> tuple[str, ...]:
+    """The kinds of tokens."""
+    if isinstance(tokens, Lexemes):
+        return (*tokens.kinds,)
+    return tuple([token[0] for token in tokens])
+
+
+def _kind(tokens: Tokens, at: int) -> str:
     return tokens[at][0] if at < len(tokens) else "END"
 
 
-def _open_brackets(tokens: list[Lexeme]) -> list[int]:
+def _open_brackets(tokens: Tokens) -> list[int]:
     stack: list[int] = []
     for number, token in enumerate(tokens):
         if token[0] in CLOSES:
@@ -136,7 +151,7 @@ def _open_brackets(tokens: list[Lexeme]) -> list[int]:
     return stack
 
 
-def _statement_mistake(tokens: list[Lexeme], at: int) -> Mistake:
+def _statement_mistake(tokens: Tokens, at: int) -> Mistake:
     here = min(at, len(tokens) - 1)
     kind = _kind(tokens, at)
     if at < 2:
@@ -156,9 +171,7 @@ def _statement_mistake(tokens: list[Lexeme], at: int) -> Mistake:
     return _stray(tokens, here)
 
 
-def _bracket_mistake(
-    tokens: list[Lexeme], opened: list[int], here: int, kind: str
-) -> Mistake | None:
+def _bracket_mistake(tokens: Tokens, opened: list[int], here: int, kind: str) -> Mistake | None:
     """What is wrong with brackets, of which some are open."""
     if len(opened) >= MOST_OPEN:
         return Mistake("too-deep", opened[-1], opened[-1], {"limit": str(MOST_OPEN)})
@@ -172,12 +185,12 @@ def _bracket_mistake(
     return None
 
 
-def _stray(tokens: list[Lexeme], here: int) -> Mistake:
+def _stray(tokens: Tokens, here: int) -> Mistake:
     word = tokens[here][1]
     return Mistake("stray-character", here, here, {"word": word, "hint": WRITTEN.get(word, "")})
 
 
-def _header_mistake(tokens: list[Lexeme], at: int, kind: str) -> Mistake:
+def _header_mistake(tokens: Tokens, at: int, kind: str) -> Mistake:
     if at == 0:
         code = "stray-continuation" if kind == "COMMA" else "not-a-statement"
         return Mistake(code, 0, 0, {"word": tokens[0][1]})
@@ -187,12 +200,12 @@ def _header_mistake(tokens: list[Lexeme], at: int, kind: str) -> Mistake:
     return Mistake("missing-slash", 0, 0, words)
 
 
-def _keywords(item: list[Lexeme]) -> list[str]:
+def _keywords(item: Tokens) -> list[str]:
     """What the tokens of an item give a value; empty where they do not say."""
     return [a[1] for a, b in pairwise(item) if (a[0], b[0]) == ("NAME", "EQUAL")] or [""]
 
 
-def _without_item(tokens: list[Lexeme], at: int) -> tuple[list[Lexeme], list[Lexeme]]:
+def _without_item(tokens: Tokens, at: int) -> tuple[Tokens, Tokens]:
     """The statement without the item that token number ``at`` spoils, and that item."""
     opened = _open_brackets(tokens[:at])
     kind = _kind(tokens, at)
@@ -211,10 +224,10 @@ def _without_item(tokens: list[Lexeme], at: int) -> tuple[list[Lexeme], list[Lex
     right = right[next((n for n, each in enumerate(right) if each[0] not in _SEPARATORS), None) :]
     if len(left) > 2 and right:
         left.append(("COMMA", "", right[0][2]))
-    return left + right, item
+    return lengthened(left, right), item
 
 
-def _item_start(tokens: list[Lexeme], at: int) -> int:
+def _item_start(tokens: Tokens, at: int) -> int:
     """The number of the first token of the item that token number ``at`` is in."""
     start, depth = 2, 0
     for number in range(2, min(at, len(tokens))):
@@ -225,7 +238,7 @@ def _item_start(tokens: list[Lexeme], at: int) -> int:
     return start
 
 
-def expression_mistake(tokens: list[Lexeme], fault: Fault) -> Mistake:
+def expression_mistake(tokens: Tokens, fault: Fault) -> Mistake:
     """What is wrong with an expression whose form breaks at ``fault``."""
     at = fault.at
     here = min(at, len(tokens) - 1)

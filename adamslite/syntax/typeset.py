@@ -13,6 +13,7 @@ of the parser; a text without LaTeX is left alone.
 from __future__ import annotations
 
 import re
+from array import array
 from bisect import bisect_right
 
 _FONTS = r"text(?:rm|it|bf|tt|sf)?|math(?:rm|it|bf|tt|sf)|operatorname|[mh]box"
@@ -90,16 +91,25 @@ class Plain:
     def __init__(self, source: str, start: int = 0) -> None:
         self._source = source
         self._pieces: list[str] = []
-        self._starts, self._origins = [0], [start]
+        self._starts, self._origins = array("Q", [0]), array("Q", [start])
         self._length, self._read = 0, start
         self._closers: list[str] = []
         self._closes = ""
         """What ends the mathematics that is read, empty outside."""
-        self._unclosed: set[str] = set()
+        self._ends: dict[str, int] = {}
+        """Where each sign that closes was found last, -1 where there is no further one."""
         self._whole = False
-        while found := _WORD.search(source, self._read):
+        self._looked = source.rfind("\n", 0, start) + 1
+        self._blank = True
+        """Whether there are only blanks on the line before the place that was looked at last."""
+        at = start
+        while found := _WORD.search(source, at):
+            kind, at = str(found.lastgroup), found.end()
+            if kind == "kept" or (kind in _MATHEMATICS and not self._closes):
+                continue  # copied with what follows
             self._copy(found.start())
-            self._replace(found)
+            self._replace(kind, found)
+            at = self._read
         self._copy(len(source))
         self.text = "".join(self._pieces)
 
@@ -121,21 +131,24 @@ class Plain:
 
     def _copy(self, end: int) -> None:
         """Copy the source as far as ``end``."""
-        self._put(self._source[self._read : end], end)
+        if end > self._read:
+            self._put(self._source[self._read : end], end)
 
     def _put(self, piece: str, end: int) -> None:
         """Put ``piece`` for the source as far as ``end``."""
-        self._pieces.append(piece)
-        self._length += len(piece)
-        self._starts.append(self._length)
-        self._origins.append(end)
+        if piece:
+            self._pieces.append(piece)
+            self._length += len(piece)
+        if self._starts[-1] == self._length:  # of two places where one begins the last counts
+            self._origins[-1] = end
+        elif self._origins[-1] + self._length != self._starts[-1] + end:
+            self._starts.append(self._length)
+            self._origins.append(end)
         self._read = end
 
-    def _replace(self, found: re.Match[str]) -> None:
-        kind, end = str(found.lastgroup), found.end()
-        if kind in _MATHEMATICS and not self._closes:
-            self._put(found[0], end)
-        elif kind == "display":
+    def _replace(self, kind: str, found: re.Match[str]) -> None:
+        end = found.end()
+        if kind == "display":
             self._display(found)
         elif kind == "function":
             self._put("", found.start(kind))
@@ -180,11 +193,21 @@ class Plain:
         begins with it.
         """
         closes, start, end = _CLOSES.get(found[0]), *found.span()
-        if closes is None or closes in self._unclosed:
+        if closes is None or self._ends.get(closes) == -1:
             return False
-        before = self._source[self._source.rfind("\n", 0, start) + 1 : start]
-        self._whole = not before.strip()
-        at = self._source.find(closes, end)
-        if at < 0:
-            self._unclosed.add(closes)
-        return at >= 0 and (self._whole or "\n" not in self._source[end:at])
+        self._whole = self._begins_line(start)
+        at = self._ends.get(closes, 0)
+        if at < end:
+            at = self._ends[closes] = self._source.find(closes, end)
+        return at >= 0 and (self._whole or self._source.find("\n", end, at) < 0)
+
+    def _begins_line(self, start: int) -> bool:
+        """Whether nothing but blanks stands before an offset on its line; no text is looked at
+        twice, however many such places are on one line.
+        """
+        line = self._source.rfind("\n", self._looked, start) + 1
+        if line:
+            self._looked, self._blank = line, True
+        self._blank = self._blank and not self._source[self._looked : start].strip()
+        self._looked = start
+        return self._blank

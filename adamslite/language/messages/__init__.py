@@ -71,6 +71,9 @@ LISTS = ("known", "listed", "labels", "bound")
 """Words of messages that are lists."""
 LONGEST_LIST = 1000
 
+MOST_COUNTED = 100_000
+"""Errors beyond those that are kept, after which a text is not read on."""
+
 START = """a deck to add broken statements to
 PART/1, GROUND
 MARKER/1, PART=1
@@ -133,6 +136,8 @@ class Log:
         self.source = source
         self.diagnostics: list[Diagnostic] = []
         self.guesses = Guesses()
+        self.last_line = 0
+        """Where reading ended because of too many mistakes; 0 where it did not."""
         self._tallies: dict[tuple[str, str], _Tally] = {}
         self._errors = 0
         self._said = 0
@@ -148,6 +153,11 @@ class Log:
     def full(self) -> bool:
         """Whether further errors are only counted."""
         return self._kept[ERROR] >= MOST
+
+    @property
+    def overflows(self) -> bool:
+        """Whether so many errors are only counted that there is no use in counting further."""
+        return self._left[ERROR] >= MOST_COUNTED
 
     @property
     def count(self) -> int:
@@ -242,4 +252,6 @@ class Log:
             self.diagnostics.append(replace(found, places=(span, *others)))
         self._tallies = {}
         left = self._left.values()
-        return [*self.diagnostics, LeftOut.of(left)] if any(left) else self.diagnostics
+        if not any(left):
+            return self.diagnostics
+        return [*self.diagnostics, LeftOut.of(left, self.last_line)]
