@@ -20,6 +20,8 @@ from contextlib import contextmanager
 from functools import cache
 
 PYTHON, COMMAND_LINE = "Python", "command line"
+#: The file that is standard output.
+STDOUT = "-"
 
 #: What Python calls otherwise than by an option.
 PHRASES = {

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -25,6 +26,8 @@ POSIX = pytest.mark.skipif(os.name != "posix", reason="limits and streams of POS
 #: The others take as long as matplotlib does to be imported, or longer.
 QUICK = ("a table", "files of SAVE and LINEAR", "a deck of a cable", "a layout")
 EACH = [name if name in QUICK else pytest.param(name, marks=pytest.mark.slow) for name in WRITING]
+#: Of each command.
+FIRST = {each.command.split()[0]: each.command for each in reversed(WRITING.values())}
 OLD = b"# adamslite: what was there before\n"
 
 
@@ -67,6 +70,19 @@ def test_the_files_of_a_command(name: str, folder: Path) -> None:
     after = contents(folder)
     assert done.returncode == 0, done.stderr
     assert {each for each in after if after[each] != before.get(each)} == {*WRITING[name].files}
+
+
+@pytest.mark.parametrize("command", [each for each in FIRST.values() if "untidy" not in each])
+def test_standard_output_is_no_file(command: str, folder: Path) -> None:
+    """`-o -` writes what is meant for a pipe, or is refused; no file is called so."""
+    before = contents(folder)
+    argv = re.sub(r"(-o|editors) \S+", r"\1 -", command).split()
+    done = adamslite(folder, argv)
+    assert contents(folder) == before
+    if argv[0] in ("solve", "cable"):
+        assert done.returncode == 0 and len(done.stdout) > 500, done.stderr
+    else:
+        assert done.returncode == 2 and done.stdout == "" and "-" in done.stderr, done.stderr
 
 
 @POSIX

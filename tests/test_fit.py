@@ -201,6 +201,17 @@ def test_numbers_that_are_told_only_poorly_apart_are_named() -> None:
     assert not held.unidentifiable
 
 
+@pytest.mark.filterwarnings("error")
+def test_the_correlation_of_a_perfect_fit_is_that_of_its_derivatives() -> None:
+    """Without any residual the standard errors are zero, and the correlation is not 0/0."""
+    run = al.simulate("swings.adm")
+    own = al.Results(time=run.time, names=(X,), values=run[X][:, None])
+    perfect = al.fit("swings.adm", own, by=[K, C])
+    assert perfect.errors.tolist() == [0.0, 0.0]
+    rough = al.fit("swings.adm", table(LONG, x=swinging(LONG) + noisy(101, 1e-3)), by=[K, C])
+    assert perfect.correlation == pytest.approx(rough.correlation, abs=0.01)
+
+
 def test_a_number_at_its_bound_has_no_standard_error() -> None:
     file = table(LONG, x=swinging(LONG) + noisy(101, 1e-3))
     deck = al.read("swings.adm", values={K: 150})

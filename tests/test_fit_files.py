@@ -55,6 +55,24 @@ def test_values_that_are_missing_are_left_out_and_told() -> None:
     assert any("nothing was measured from t = 1.18 to 1.6" in note for note in found.notes)
 
 
+@pytest.mark.parametrize("unit", ["", " [m]"])
+@pytest.mark.parametrize("band", ["# tolerance: abs 1e-3", "# no band"])
+def test_a_file_in_another_unit_than_it_says_is_doubted(unit: str, band: str, capsys: Any) -> None:
+    """Millimetres, with a wrong heading or without; the exit code is not that of a fit."""
+    table(LONG, band, **{f"{X}{unit}": 1e3 * swinging(LONG)})
+    assert main(["fit", "swings.adm", "measured.csv", "--quiet", "--by", C]) == 1
+    said = capsys.readouterr().out
+    assert "the deck does not do what was measured" in said
+    assert "about 0.001 times what was measured: is the file in another unit?" in said
+
+
+def test_a_poor_fit_in_the_right_unit_is_not_doubted_so(capsys: Any) -> None:
+    table(LONG, "# tolerance: abs 1e-3", x=swinging(LONG, k=300.0))
+    assert main(["fit", "swings.adm", "measured.csv", "--quiet", "--by", C]) == 1
+    said = capsys.readouterr().out
+    assert "the deck does not do what was measured" in said and "another unit" not in said
+
+
 def test_flags_of_a_reference_file_are_those_of_the_runs() -> None:
     lines = ["# solve: --error 1e-6", f"# measure: max {X} = 1.2 tol abs 1"]
     found = al.fit("swings.adm", table(LONG, *lines, x=swinging(LONG)), by=[K])

@@ -15,6 +15,7 @@ from adamslite.results.common_terms import in_common_terms
 from adamslite.results.comparison import Tolerance, compare
 from adamslite.results.printed import Printed
 from adamslite.results.results import Results
+from adamslite.results.unit_factors import unit_ratio
 
 
 @pytest.fixture
@@ -129,6 +130,62 @@ def test_units_are_converted_between_any_two_results(tmp_path, monkeypatch, caps
     said = capsys.readouterr()
     assert "all within" in said.out and "m to mm" in said.err
     assert "VARIABLE/5: of unknown unit, compared as they are" in said.err
+
+
+TENSION = """a rope that is pulled
+UNITS/SYSTEM=MKS
+PART/1, GROUND
+VARIABLE/pull, FUNCTION=4000+500*SIN(5*TIME)
+REQUEST/1, F2=VARVAL(pull)\\ F3=TIME\\, CUNITS="","N"
+SIMULATE/TRANSIENT, END=1, STEPS=20
+END
+"""
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".nc"])
+@pytest.mark.parametrize("head", ["[kN]", ""])
+@pytest.mark.parametrize("deck", [[], ["--deck", "pull.adm"]])
+def test_what_is_known_of_the_unit_of_a_table_is_said(
+    suffix: str, head: str, deck: list[str], tmp_path: Path, monkeypatch, capsys
+) -> None:
+    """A table in kN, in its heading or without a word, beside results in N."""
+    monkeypatch.chdir(tmp_path)
+    Path("pull.adm").write_text(TENSION)
+    run = adamslite.simulate("pull.adm")
+    run.save(f"a{suffix}")
+    noise = np.random.default_rng(1).normal(size=len(run.time))
+    rows = zip(run.time, 1e-3 * run["REQUEST/1.F2"] + 0.02 * noise, strict=True)
+    lines = [f"time [s],REQUEST/1.F2 {head}", *(f"{t},{f}" for t, f in rows)]
+    Path("kN.csv").write_text("\n".join(lines) + "\n")
+    known = bool(head) and (bool(deck) or suffix == ".nc")
+    assert main(["diff", f"a{suffix}", "kN.csv", "--tol", "0.1", *deck]) == (0 if known else 1)
+    said = capsys.readouterr().err
+    assert ("converted to the units of the reference: N to kN" in said) == known
+    assert ("REQUEST/1.F2: 1000 times the reference throughout" in said) != known
+    named = bool(head) and not known
+    assert ("one file alone names kN; compared as they are, unless --deck" in said) == named
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(
+    ("values", "ratio"),
+    [
+        ([5.0, -1.0, 2.0], 1000.0),
+        ([5.02, -1.1, 1.91], 1000.0),
+        ([6.0, -1.0, 2.0], None),
+        ([0.0, 0.0, 0.0], None),
+        ([np.nan, 1.0, 2.0], None),
+        ([np.inf, 1.0, 2.0], None),
+    ],
+)
+def test_a_ratio_of_two_units_is_found_under_noise_and_no_other(
+    values: list[float], ratio: float | None
+) -> None:
+    others, found = np.array([5.0, -1.0, 2.0]), np.array(values)
+    for times in (1e3, 7.0, 1.05):  # 7: of no two units
+        expected = ratio if times == 1e3 else None
+        assert unit_ratio(times * found, others) == pytest.approx(expected)
+        assert unit_ratio(found, times * others) == pytest.approx(expected and 1.0 / expected)
 
 
 def test_python_compares_like_the_command(folder: Path) -> None:

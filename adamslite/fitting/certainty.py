@@ -102,10 +102,10 @@ def certainty(
     blind = _simplest(rows[~determined] / lengths)
     inverse = rows[determined].T / singular[determined] / lengths[:, None]
     squared = residuals @ residuals / max(len(residuals) - int(determined.sum()), 1)
-    covariance = squared * (inverse @ inverse.T)
+    shape = inverse @ inverse.T
     hidden = np.asarray(_parts(blind).any(axis=0))
-    covariance[hidden, :] = covariance[:, hidden] = np.nan
-    errors = np.sqrt(np.diag(covariance))
+    shape[hidden, :] = shape[:, hidden] = np.nan
+    covariance, spans = squared * shape, np.sqrt(np.diag(shape))
     unidentifiable = [
         *(Combination({names[k]: 1.0}, np.inf) for k in np.flatnonzero(silent).tolist()),
         *(_combination(each, np.inf, own) for each in blind),
@@ -113,7 +113,7 @@ def certainty(
     ]
     return Certainty(
         _whole(covariance, heard, len(names)),
-        _whole(covariance / np.outer(errors, errors), heard, len(names)),
+        _whole(shape / np.outer(spans, spans), heard, len(names)),
         tuple(unidentifiable), singular, floor,
     )  # fmt: skip
 

@@ -22,8 +22,8 @@ TIGHTER, WIDER = 0.1, 2.0
 MOVED = 0.1
 #: residuals of neighbouring times that are so much alike, numbers that are so much smaller now.
 ALIKE, VANISHED = 0.3, 1e-3
-#: residuals so many times beyond their band, and without band so large a share of the spread.
-BEYOND, LEFT = 3.0, 0.3
+#: a deck that gives so many times what was measured, with curves that are so much alike.
+MANIFOLD, SIMILAR = 5.0, 0.9
 #: Residuals are looked at where there are so many, larger than this share of the amplitude.
 FEWEST, ROUNDING = 20, 1e-8
 COARSE = (
@@ -39,17 +39,18 @@ def described(
     values = np.array(search.values(x))
     results = runs.results(values.tolist())
     curves = runs.sampled(results, measured)
+    residuals = _residuals(curves, measured, results)
     found, said = _judged(search, values, results, stopped)
     numbers = dict(zip((each.name for each in runs.parameters), values.tolist(), strict=True))
     return Fit(
         parameters=tuple(runs.parameters), values=values,
         errors=_sizes(runs, values) * np.sqrt(np.diag(found.covariance)), certainty=found,
-        residuals=tuple(_residuals(curves, measured, results)),
+        residuals=tuple(residuals),
         deck=with_values(runs.deck, {**runs.given, **numbers}), results=results, before=before,
         measured=measured, curves=curves, sigmas=search.sigmas, runs=runs.count,
         derivatives=str(search.derivatives), stopped=stopped,
         notes=tuple(shown(each) for each in (
-            *notes, *_poor(curves, measured), *said, *_vanished(runs, values)
+            *notes, *_poor(residuals, before, measured), *said, *_vanished(runs, values)
         ) if each),
     )  # fmt: skip
 
@@ -147,21 +148,34 @@ def _alike(residuals: np.ndarray, curves: np.ndarray, measured: Measured) -> lis
     return notes
 
 
-def _poor(curves: np.ndarray, measured: Measured) -> list[str]:
-    """Channels whose residuals are far beyond their band, or large beside the values."""
+def _poor(residuals: list[Residual], before: Results, measured: Measured) -> list[str]:
+    """Channels that the deck does not explain, and what may be wrong with them."""
     notes = []
-    for k, (name, spread) in enumerate(zip(measured.channels, amplitudes(measured), strict=True)):
-        known, table = measured.known[:, k], measured.apart(curves)
-        own, band = table[known, k], measured.bands[known, k]
-        beyond = np.sqrt(np.mean((own / band) ** 2)) if band.all() else 0.0
-        left = np.sqrt(np.mean(own**2)) / spread
-        if beyond > BEYOND or (not band.all() and left > LEFT):
-            what = f"{beyond:.3g} times its band" if beyond else f"{left:.2g} of its spread"
+    for each, values in zip(residuals, measured.values.T, strict=True):
+        if each.poor:
             notes.append(
-                f"{name}: the residual is {what}: the deck does not do what was measured, or "
-                "another start leads to better numbers"
+                f"{each.channel}: the residual is {each.poor}: the deck does not do what was "
+                f"measured, or another start leads to better numbers"
             )
+            started = np.interp(measured.time, before.time, before[each.channel])
+            notes += _in_other_units(each.channel, started, values)
     return notes
+
+
+def _in_other_units(channel: str, started: np.ndarray, values: np.ndarray) -> list[str]:
+    """A sentence where curves from the start (nt,) are as those measured, but for a factor."""
+    known = np.isfinite(values)
+    started, values = started[known], values[known]
+    sizes = float(np.linalg.norm(started)), float(np.linalg.norm(values))
+    if not all(sizes) or started @ values < SIMILAR * sizes[0] * sizes[1]:
+        return []
+    times = sizes[0] / sizes[1]
+    if 1.0 / MANIFOLD < times < MANIFOLD:
+        return []
+    return [
+        f"{channel}: with the numbers that it starts with, the deck gives about "
+        f"{float(f'{times:.1g}'):g} times what was measured: is the file in another unit?"
+    ]
 
 
 def _interpolated(
@@ -195,10 +209,12 @@ def _vanished(runs: Runs, values: np.ndarray) -> list[str]:
 
 def _residuals(curves: np.ndarray, measured: Measured, results: Results) -> list[Residual]:
     found, table, rms = [], measured.apart(curves), measured.rms(curves)
+    spreads = amplitudes(measured)
     for k, name in enumerate(measured.channels):
         known = measured.known[:, k]
         own, band = table[known, k], measured.bands[known, k]
         share = np.sqrt(np.mean((own / band) ** 2)) if band.all() else np.nan
         unit = results.channel(name).unit
-        found.append(Residual(name, float(rms[k]), float(share), len(own), unit))
+        left = float(rms[k] / spreads[k])
+        found.append(Residual(name, float(rms[k]), float(share), len(own), unit, left))
     return found

@@ -28,13 +28,17 @@ HEAD = ("number", "start", "fitted", "standard error", "")
 UNIDENTIFIABLE, AT_BOUND = "not identifiable", "at its bound"
 #: Correlations are printed for so many numbers; of more only those that are larger than this.
 MOST_SHOWN, LARGE = 8, 0.95
+#: Residuals that the deck does not explain: so many times beyond their band, and without band so
+#: large a share of the spread.
+BEYOND, LEFT = 3.0, 0.3
 #: Between these sizes numbers are written without exponent, with so many places at most.
 PLAIN, MOST_PLACES = (1e-3, 1e7), 12
 
 
 class Residual(NamedTuple):
     """Of one channel: root mean square of model less measurement, as a number and as a part of its
-    band, which is not a number where the file has none; and how many values.
+    band, which is not a number where the file has none; how many values; ``left``: the number as a
+    part of the spread of the values.
     """
 
     channel: str
@@ -42,6 +46,14 @@ class Residual(NamedTuple):
     share: float
     values: int
     unit: str
+    left: float
+
+    @property
+    def poor(self) -> str:
+        """How much too large it is, as a phrase; empty where it is not."""
+        if np.isfinite(self.share):
+            return f"{self.share:.3g} times its band" if self.share > BEYOND else ""
+        return f"{self.left:.2g} of its spread" if self.left > LEFT else ""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -146,6 +158,13 @@ class Fit:
         pairs = zip(self.parameters, self.values, self.errors, strict=True)
         known = all(np.isfinite(error) or each.at_bound(value) for each, value, error in pairs)
         return known and not self.certainty.unidentifiable
+
+    @property
+    def is_close(self) -> bool:
+        """Whether the deck does what was measured: no residual is far beyond its band, or without
+        band a large share of the spread.
+        """
+        return not any(each.poor for each in self.residuals)
 
     @property
     def text(self) -> str:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import IO, Any, Literal, overload
 
 from adamslite.errors import UsageError
+from adamslite.notation import STDOUT
 
 #: How files begin that this program writes: tables, what LINEAR and SAVE leave; matrices for MATLAB
 #: hold nothing but numbers.
@@ -86,6 +87,21 @@ def _folded(path: str | Path) -> str:
     return os.path.realpath(path).casefold()
 
 
+def need_file(path: str | Path) -> None:
+    """Reject the name of standard output where a file has to be written.
+
+    Raises
+    ------
+    UsageError
+        In one sentence.
+    """
+    if str(path) == STDOUT:
+        raise UsageError(
+            f"'{path}' is standard output, which takes results of runs and decks of cables alone; "
+            "give -o another name"
+        )
+
+
 def need_writable(path: str | Path, read: Iterable[Path], named: bool = True) -> None:
     """Fail now rather than after a long run; never write over what is ``read``.
 
@@ -106,6 +122,7 @@ def need_writable(path: str | Path, read: Iterable[Path], named: bool = True) ->
     UsageError
         When it is one of the files that are read, or leads elsewhere.
     """
+    need_file(path)
     for each in read:
         if same_file(path, each):
             raise UsageError(f"'{path}' is read, and would be written over; give -o another name")

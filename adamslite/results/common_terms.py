@@ -14,7 +14,7 @@ import numpy as np
 
 from adamslite.language.diagnostics import DeckError
 from adamslite.results.adams_terms import BCS, from_adams, with_split_angles
-from adamslite.results.channels import unit_symbols
+from adamslite.results.channels import describe, unit_symbols
 from adamslite.results.comparison import Mismatch
 from adamslite.results.unit_factors import in_symbols, unit_factor
 
@@ -53,7 +53,7 @@ def in_common_terms(results: Results, reference: Results, deck: Deck | None = No
         known = deck or deck_of(results) or deck_of(reference)
         results, reference = (_as_ours(each, known, notes) for each in (results, reference))
         reference = _shared(results, reference, notes)
-    return Common(_in_units(results, reference, notes), reference, notes)
+    return Common(_in_units(results, reference, notes, deck), reference, notes)
 
 
 def of_deck(results: Results, deck: Deck | None) -> tuple[Results, list[str]]:
@@ -133,17 +133,17 @@ def _only(results: Results, names: list[str]) -> Results:
     return replace(results, names=tuple(names), values=table)
 
 
-def _in_units(results: Results, reference: Results, notes: list[str]) -> Results:
+def _in_units(results: Results, reference: Results, notes: list[str], deck: Deck | None) -> Results:
     """The results in the units of the reference, where those of both are known."""
     values = results.values.copy()
     changed: dict[str, str] = {}
-    unknown = []
+    unknown, named = [], {}
     column = {name.casefold(): k for k, name in enumerate(results.names)}
     other_system = _differ(results.unit_symbols, reference.unit_symbols)
     for name in reference.names:
         if name.casefold() not in column:
             continue
-        have, want = results.channel(name).unit, reference.channel(name).unit
+        have, want = (_unit(each, name, deck) for each in (results, reference))
         if have and want and have != want:
             factor = unit_factor(have, want)
             if factor is None:
@@ -152,13 +152,32 @@ def _in_units(results: Results, reference: Results, notes: list[str]) -> Results
             changed[have] = want
         elif other_system and have == want == "":
             unknown.append(name)
+        elif have != want and _is_marked(results, name) != _is_marked(reference, name):
+            named[name] = have or want
     time = _time(results, reference, changed)
     if changed:
         words = ", ".join(f"{have} to {want}" for have, want in changed.items())
         notes.append(f"results were converted to the units of the reference: {words}")
     if unknown and changed:
         notes.append(f"{_listed(unknown)}: of unknown unit, compared as they are")
+    if named:
+        units = ", ".join(dict.fromkeys(named.values()))
+        told = "" if deck else ", unless --deck DECK tells the unit"
+        notes.append(
+            f"{_listed([*named])}: one file alone names {units}; compared as they are{told}"
+        )
     return replace(results, time=time, values=values) if changed else results
+
+
+def _unit(results: Results, name: str, deck: Deck | None) -> str:
+    """The unit of a column; with a deck, also of what an expression of it measures."""
+    own = results.channel(name).unit
+    return own or (describe(name, results.unit_symbols, deck).unit if deck else "")
+
+
+def _is_marked(results: Results, name: str) -> bool:
+    """Whether the file names the unit of a column by itself."""
+    return name in results and bool(results.channels.get(results.channel(name).name))
 
 
 def _differ(units: dict[str, str], others: dict[str, str]) -> bool:

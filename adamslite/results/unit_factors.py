@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import pi
+from functools import cache
+from itertools import product
+from math import inf, pi
+
+import numpy as np
 
 from adamslite.language.units import FORCE, LENGTH, MASS, SYMBOLS, TIME
 
@@ -12,6 +16,9 @@ SIZES = {
     SYMBOLS[name]: (kind, size) for kind, units in KINDS.items() for name, size in units.items()
 } | {"rad": ("angle", 1.0), "deg": ("angle", pi / 180)}
 """Kind and size in units of the SI, by symbol."""
+#: Values that are in the ratio of two units are in one ratio, but for this share of them, and their
+#: ratio is so close to that of the units.
+PROPORTIONAL, CLOSE = 0.05, 2e-3
 Size = tuple[dict[str, int], float]
 
 
@@ -26,6 +33,37 @@ def unit_factor(unit: str, other: str) -> float | None:
     if size is None or other_size is None or size[0] != other_size[0]:
         return None
     return size[1] / other_size[1]
+
+
+def unit_ratio(values: np.ndarray, others: np.ndarray) -> float | None:
+    """The ratio of two units of one quantity, by which all values (nt,) are beside others.
+
+    None where they are in no such ratio, of two or more.
+    """
+    square = float(others @ others)
+    if not square or not np.isfinite(square):
+        return None
+    times = float(values @ others) / square
+    if not 0.0 < times < inf or _apart(values, times * others) > PROPORTIONAL:
+        return None
+    larger = max(times, 1.0 / times)
+    nearest = min(_ratios(), key=lambda ratio: abs(ratio / larger - 1.0))
+    if abs(nearest / larger - 1.0) > CLOSE:
+        return None
+    return nearest if times > 1.0 else 1.0 / nearest
+
+
+def _apart(values: np.ndarray, others: np.ndarray) -> float:
+    """How far two histories (nt,) are apart, as a share of the first."""
+    return float(np.linalg.norm(values - others) / np.linalg.norm(values))
+
+
+@cache
+def _ratios() -> list[float]:
+    """Of any two units of a quantity, those of two and above."""
+    pairs = product(SIZES.values(), repeat=2)
+    return sorted({size / other for (kind, size), (own, other) in pairs if kind == own
+                   and size > 2.0 * other})  # fmt: skip
 
 
 def in_symbols(unit: str, symbols: Mapping[str, str]) -> tuple[str, float]:

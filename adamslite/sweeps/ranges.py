@@ -94,7 +94,7 @@ def _written(name: str, text: str) -> Range:
         return Range(name, (), low, high)
     count = words[2].strip()
     if not count.isdecimal() or not 2 <= int(count) <= MOST:
-        raise UsageError(f"{name}={text}: the last word is how many values, at least 2")
+        raise UsageError(f"{name}={text}: the last word is how many values, 2 to {MOST}")
     return Range(name, tuple(np.linspace(low, high, int(count)).tolist()))
 
 

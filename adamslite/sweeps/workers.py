@@ -147,6 +147,22 @@ def _take(job: Job) -> None:
     global _job
     _job = job
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    end_with_the_first()
+
+
+def end_with_the_first() -> None:
+    """Let this process end when the first one has been killed, which could not end it any more.
+
+    A fork holds the ends of pipes of those that were forked before it: the youngest ends first.
+    """
+
+    def follow() -> None:
+        first = multiprocessing.parent_process()
+        if first is not None:
+            first.join()
+            os._exit(1)
+
+    threading.Thread(target=follow, daemon=True).start()
 
 
 def _lot(numbers: list[int]) -> tuple[float, list[Run]]:

@@ -15,8 +15,10 @@ from adamslite.results.comparison import (
     Tolerance,
     need_content,
     of_different_decks,
+    sampler,
 )
 from adamslite.results.results import Results
+from adamslite.results.unit_factors import unit_ratio
 from adamslite.verification.reference_file import Reference
 
 
@@ -63,4 +65,22 @@ def _compared(
     reference.table = common.reference
     if allowed is not None:
         reference.tolerances = [(escape(name), allowed(name)) for name in common.reference.names]
-    return reference.judge(common.results, usual=USUAL), common.notes
+    found = reference.judge(common.results, usual=USUAL)
+    return found, [*common.notes, *_in_other_units(found, common.results, reference)]
+
+
+def _in_other_units(found: Comparison, results: Results, reference: Reference) -> list[str]:
+    """Sentences on channels that are off as by a unit."""
+    table, notes = reference.table, []
+    try:
+        sample = sampler(results, table.time, reference.interpolate)
+    except Mismatch:  # of times that files have rounded
+        return []
+    for name in (each.name for each in found.outside if each.name in table.names):
+        ratio = unit_ratio(sample(results[name]), table[name])
+        if ratio is not None:
+            notes.append(
+                f"{name}: {ratio:.6g} times the reference throughout: is one of them in another "
+                f"unit?"
+            )
+    return notes

@@ -102,11 +102,18 @@ def verify(cases: Iterable[Case], run: Run | None = None, jobs: int = 1) -> Iter
         for group in decks:
             yield from judge_deck(group)
         return
-    # Also where processes are not forked, messages are written as here.
     with ProcessPoolExecutor(
-        min(jobs, len(decks)), initializer=notation.use, initargs=(notation.current(),)
+        min(jobs, len(decks)), initializer=_begin, initargs=(notation.current(),)
     ) as pool:
         yield from chain.from_iterable(pool.map(judge_deck, decks))
+
+
+def _begin(words: str) -> None:
+    """A process begins: messages are written as in the first one, also where it is no fork."""
+    from adamslite.sweeps.workers import end_with_the_first
+
+    notation.use(words)
+    end_with_the_first()
 
 
 def solve_quietly(

@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 
 from adamslite.cli.commands.codes import DONE
+from adamslite.notation import STDOUT
 from adamslite.run_flags import instant
 
 
@@ -19,8 +20,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of `adamslite cable`."""
     parser.add_argument("spec", metavar="SPEC.toml", type=Path, help="description of the scene")
     parser.add_argument(
-        "-o", "--output", metavar="DECK.adm", help="deck to write; without it, standard output"
-    )
+        "-o", "--output", metavar="DECK.adm",
+        help="deck to write; without it, or with -, standard output",
+    )  # fmt: skip
     trial = parser.add_mutually_exclusive_group()
     trial.add_argument(
         "--trial", type=instant, metavar="S",
@@ -40,8 +42,9 @@ def run(args: argparse.Namespace) -> int:
     from adamslite.outputs.whole_files import need_writable, whole_file
     from adamslite.progress import SentenceProgress
 
-    if args.output:
-        need_writable(args.output, [args.spec])
+    output = None if args.output == STDOUT else args.output
+    if output:
+        need_writable(output, [args.spec])
     # It takes a while to load.
     from adamslite.api.trials import described
     from adamslite.language.text import MOST, contents
@@ -56,8 +59,8 @@ def run(args: argparse.Namespace) -> int:
         sys.stderr.write(render(warnings) + "\n\n")
     if summary := found.summary:
         sys.stderr.write(f"{args.spec}: {summary}\n")
-    if args.output:
-        with whole_file(Path(args.output)) as stream:
+    if output:
+        with whole_file(Path(output)) as stream:
             stream.write(written)
     else:
         sys.stdout.write(written)

@@ -54,12 +54,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Measure, write, print; return the exit code."""
-    from adamslite.outputs.whole_files import need_writable
+    from adamslite.outputs.whole_files import need_file, need_writable
     from adamslite.plots.accuracy_text import table, verdict
     from adamslite.scene import load_scene
     from adamslite.verification.work_precision import ERRORS, measure
 
     name = args.output or f"{args.deck.stem}-chart"
+    need_file(name)
     scene = load_scene(args.deck, args.commands, args.user, args.values)
     for suffix in ("csv", *PICTURES):
         need_writable(f"{name}.{suffix}", scene.read, bool(args.output))

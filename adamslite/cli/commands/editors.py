@@ -20,7 +20,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Write the files; return the exit code."""
     from adamslite.editing.vscode import files, write
+    from adamslite.outputs.whole_files import need_file
 
+    need_file(args.folder)
     write(args.folder)
     for name in files():
         sys.stdout.write(f"{args.folder / name}\n")

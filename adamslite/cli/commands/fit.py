@@ -6,7 +6,7 @@ which residuals are weighted; of channels without one the noise is estimated. Th
 (`adamslite names` lists them) are fitted by least squares and printed with standard errors and
 correlations, and what the measurement does not determine is named. DECK with the fitted numbers
 goes to its name with .fitted.adm in the current directory, or to OUT. Exit code 1: some numbers
-are not identifiable; 4: the fit stopped early.
+are not identifiable, or the deck does not do what was measured; 4: the fit stopped early.
 """
 
 import argparse
@@ -78,7 +78,7 @@ def run(args: argparse.Namespace) -> int:
         sys.stderr.write(f"{args.plot}: measured and fitted curves\n")
     if found.stopped:
         return STOPPED_EARLY
-    return DONE if found.is_identifiable else OUTSIDE_TOLERANCE
+    return DONE if found.is_identifiable and found.is_close else OUTSIDE_TOLERANCE
 
 
 def _need_figure(path: str) -> None:

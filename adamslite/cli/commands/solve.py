@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from adamslite.cli.commands.codes import DONE, OUTSIDE_TOLERANCE, STOPPED_EARLY
+from adamslite.notation import STDOUT
 from adamslite.run_flags import add_deck, add_run_flags, run_options
 
 if TYPE_CHECKING:
@@ -35,9 +36,6 @@ LINEARISED, PAGE = "linearised model", "page"
 
 #: Signals that end a run like Ctrl-C.
 ENDING = ("SIGTERM", "SIGHUP")
-
-#: OUT that means standard output.
-STDOUT = "-"
 
 #: What becomes of LINEAR commands then.
 UNWRITTEN = "not written: it goes beside the results, and they went to no file"
