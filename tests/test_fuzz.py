@@ -11,9 +11,10 @@ from pathlib import Path
 
 import pytest
 from fuzz import guarded
+from fuzz.calls import Broken
 from fuzz.cases import KEPT, Case, keep, kept
 from fuzz.guarded import BROKEN, FAULTS, LARGE, SIGNAL, SLOW, TRACEBACK, Child, verdicts
-from fuzz.kinds import KINDS, Broken, Kind
+from fuzz.kinds import KINDS, Kind
 from fuzz.minimise import minimised
 
 COMMAND = Path(__file__).parent / "fuzz"

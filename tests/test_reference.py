@@ -52,6 +52,7 @@ def test_every_instruction_is_understood(tmp_path: Path) -> None:
         ("tolerence: abs 1", "did you mean 'tolerance:'"),
         ("tolerance: 1e-6", "'1e-6' is not a tolerance"),
         ("tolerance: abs x", "'x' is not a number"),
+        ("tolerance: rel 1e999", "'1e999' is no finite number"),
         ("tolerance: abs 1 foo 2", "is not a tolerance"),
         ("tolerance: digits 1.5", "how many significant digits"),
         ("tolerance: digits 0", "how many significant digits"),

@@ -14,6 +14,7 @@ from test_unfinished_runs import pendulum, written
 from unfinished_runs import OFTEN, command, solved
 
 from adamslite.analyses.checkpoint import begin
+from adamslite.caching import secret
 from adamslite.cli.main import main
 from adamslite.outputs.part_file import PartFile
 
@@ -111,6 +112,11 @@ class TestWhatWasLeftBehind:
         assert main(["solve", str(deck), "-o", str(deck.with_name("x.csv")), "--quiet"]) == 0
         assert "is damaged" in capsys.readouterr().err
 
+    def test_one_of_a_stranger_is_reported(self, deck: Path, capsys, monkeypatch) -> None:
+        monkeypatch.setattr(secret, "_secret", lambda: b"of another user")
+        assert main(["solve", str(deck), "-o", str(deck.with_name("x.csv")), "--quiet"]) == 0
+        assert "was not written with this cache" in capsys.readouterr().err
+
     def test_one_that_is_being_written_ends_the_second_run(self, deck: Path, capsys) -> None:
         part = PartFile.open(deck.with_name("x.csv.part"))
         assert main(["solve", str(deck), "-o", str(deck.with_name("x.csv")), "--quiet"]) == 2
@@ -161,6 +167,27 @@ class TestGoingOn:
         assert main(["solve", "--resume", str(part)]) == 5
         assert "its rows were changed" in capsys.readouterr().err
 
+    def test_one_of_a_stranger_is_resumed_only_when_it_is_trusted(
+        self, part: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys
+    ) -> None:
+        """Who has another secret can be a stranger, or the user on another machine."""
+        before = part.read_bytes()
+        with monkeypatch.context() as elsewhere:
+            elsewhere.setattr(secret, "_secret", lambda: b"of another user")
+            assert main(["solve", "--resume", str(part)]) == 2
+            told = capsys.readouterr().err
+            assert "was not written with this cache" in told and f"{part} --trust" in told
+            assert part.read_bytes() == before
+            trusted = PartFile.open(part, trusted=True)
+            assert trusted.state["facts"]["outputs"] == []
+            trusted.close()
+        changed = PartFile.open(part)
+        changed.commit((*changed._named[0][:3], bytes(16).hex()))
+        changed.close()
+        assert main(["solve", "--resume", str(part)]) == 2
+        assert main(["solve", "--resume", str(part), "--trust", "--quiet"]) == 0
+        assert (tmp_path / "x.csv").exists() and not part.exists()
+
     def test_a_state_of_other_arrays_is_refused(self, part: Path, capsys) -> None:
         """What native code writes to is only what it had room for."""
         changed = PartFile.open(part)
@@ -176,6 +203,7 @@ class TestGoingOn:
     [
         (["solve"], "give the name of a deck, or --resume OUT.part"),
         (["solve", "--resume", "nothing.csv.part"], "No such file"),
+        (["solve", "deck.adm", "--trust"], "--trust goes with --resume OUT.part"),
         (["solve", "--resume", "deck.adm"], "the file of a run that did not end is OUT.part"),
     ],
 )

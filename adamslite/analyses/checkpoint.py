@@ -45,7 +45,7 @@ def write(
     part: PartFile,
     facts: Mapping[str, Any],
     stretches: Sequence[Stretch],
-    ends: dict[int, Sequence[int]],
+    ends: dict[int, Sequence[Any]],
     run: int,
     system: System,
     code: int | None = None,
@@ -65,13 +65,13 @@ def write(
     part.commit(place)
 
 
-def known_ends(part: PartFile) -> dict[int, Sequence[int]]:
+def known_ends(part: PartFile) -> dict[int, Sequence[Any]]:
     """Where the ends of long runs are, by their numbers."""
     return {int(run): place for run, place in part.state["ends"].items()}
 
 
 def resumed(
-    part: PartFile, ends: Mapping[int, Sequence[int]], run: int, system: System
+    part: PartFile, ends: Mapping[int, Sequence[Any]], run: int, system: System
 ) -> tuple[int, list[Stretch]] | None:
     """Put a run where the file has it: its code when it has ended, HELD when it goes on, and the
     rows so far; None when nothing is known of it.

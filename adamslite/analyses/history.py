@@ -195,7 +195,7 @@ class Journal:
         self.path, self.facts, self.part = path, facts, found
         self.due = clock.monotonic() + SETTLED
         self.run = -1
-        self.ends: dict[int, Sequence[int]] = {}
+        self.ends: dict[int, Sequence[Any]] = {}
 
     def outlet(self, history: History, system: System, spill: Callable[[], None]) -> Outlet:
         """What takes the records of the next run, by ``spill``."""

@@ -231,8 +231,10 @@ def determined_at_rest(deck: Deck, commands: Iterable[Statement] = ()) -> Iterat
         return
     for system in linear_systems(deck):
         found = None if system.static_hold else system.matrices(deck)
-        n = len(found.a) if found else 0
-        if found is None or any(len(row) != n for row in found.a) or len(found.b) not in (0, n):
+        if found is None or not found.a:  # of a matrix that is not read
+            continue
+        n = len(found.a)
+        if any(len(row) != n for row in found.a) or len(found.b) not in (0, n):
             continue
         of_inputs = found.b or [()] * n
         both = [(*row, *of_u) for row, of_u in zip(found.a, of_inputs, strict=True)]

@@ -2,14 +2,18 @@
 
 ::
 
-    magic           "adamslite part 1\\n"
-    64, 128         two records of 64 bytes: serial number, place, size and checksum of a state,
-                    checksum of the record; that with the larger number counts
+    magic           "adamslite part 2\\n"
+    64, 128         two records of 64 bytes: serial number, place, size, checksum and seal of a
+                    state, checksum of the record; that with the larger number counts
     4096 ...        rows (time and values, float64) and states, wherever there is room
     a state         a line of JSON, then arrays behind each other; ``stretches`` says where rows are
 
 A state is written, and with all rows before it brought to the disk, before the record that names it
 replaces the older one of the two: whatever moment a run is killed at, one of them is complete.
+
+A state is numbers of native code, such as where it writes next, and names of files.  So it is
+sealed with a secret of the user (:mod:`adamslite.caching.secret`), and only the states of other
+users, machines and caches that are said to be trusted are taken.
 """
 
 from __future__ import annotations
@@ -26,16 +30,18 @@ from typing import Any, BinaryIO, Protocol, TypeAlias
 
 import numpy as np
 
+from adamslite.caching.secret import seal
 from adamslite.errors import FormatError, UsageError
+from adamslite.results.untrusted import from_json
 
-MAGIC = b"adamslite part 1\n"
+MAGIC = b"adamslite part 2\n"
 RECORDS, FIRST = (64, 128), 4096
 #: Times (n,) and values (n, nc) of some rows.
 Part: TypeAlias = tuple[np.ndarray, np.ndarray]
-#: Where a state is, its size, its checksum.
-Place: TypeAlias = tuple[int, int, int]
-# Serial number, place, size, checksum of the state; that of these four stands behind.
-RECORD, CHECK = struct.Struct("<QQQI"), struct.Struct("<I")
+#: Where a state is, its size, its checksum and its seal (hexadecimal).
+Place: TypeAlias = tuple[int, int, int, str]
+# Serial number, place, size, checksum and seal of the state; the checksum of these stands behind.
+RECORD, CHECK = struct.Struct("<QQQI16s"), struct.Struct("<I")
 #: Room for a state is taken so many times larger than the first one: later ones are longer.
 SPARE = 1.5
 #: Bytes that are read at once.
@@ -43,7 +49,15 @@ CHUNK = 1 << 24
 SUFFIX, OLD = ".part", ".old"
 BINARY = getattr(os, "O_BINARY", 0)
 DAMAGED = "{path} is damaged, or no unfinished run of adamslite: {why}"
+FOREIGN = (
+    "{path} was not written with this cache: whoever made it can have it run any code. If it is "
+    "your own, of another machine or of an earlier cache, `solve --resume {path} --trust` takes it"
+)
 BUSY = "another run is writing '{output}': {path} is in use; wait for it, or give -o another name"
+
+
+class UnknownWriter(UsageError):
+    """A file of an unfinished run that is not known to be the user's own."""
 
 
 class Stretch(Protocol):
@@ -116,8 +130,8 @@ class PartFile:
         Its arrays, by their names.
     """
 
-    def __init__(self, path: Path, stream: BinaryIO) -> None:
-        self.path, self._stream = path, stream
+    def __init__(self, path: Path, stream: BinaryIO, trusted: bool = False) -> None:
+        self.path, self._stream, self._trusted = path, stream, trusted
         self.state: Mapping[str, Any] = {}
         self.arrays: Mapping[str, np.ndarray] = {}
         self._serial, self._end = 0, FIRST
@@ -157,20 +171,20 @@ class PartFile:
         return found
 
     @staticmethod
-    def open(path: Path) -> PartFile:
-        """An unfinished run to go on with, and its last state.
+    def open(path: Path, trusted: bool = False) -> PartFile:
+        """An unfinished run to go on with, and its last state; ``trusted``: whoever wrote it.
 
         Raises
         ------
         UsageError
-            When another run is writing it.
+            When another run is writing it, or it was not written with this cache.
         FormatError
             When it is none, or is damaged.
         """
         stream = open(path, "r+b")  # noqa: SIM115 - it stays open
         try:
             _lock(path, stream)
-            found = PartFile(path, stream)
+            found = PartFile(path, stream, trusted)
             found._read_state()
         except BaseException:
             stream.close()
@@ -194,11 +208,11 @@ class PartFile:
         FormatError
             When the file ends before.
         """
-        self._stream.seek(at)
-        data = self._stream.read(size)
-        if len(data) != size:
+        self._stream.flush()
+        if not 0 <= at <= at + size <= os.fstat(self._stream.fileno()).st_size:
             raise FormatError(DAMAGED.format(path=self.path, why="it ends early"))
-        return data
+        self._stream.seek(at)
+        return self._stream.read(size)
 
     # rows
 
@@ -234,13 +248,14 @@ class PartFile:
         data = b"".join([head, *(each.tobytes() for each in arrays.values())])
         at = self._place(len(data), kept)
         self._write(at, data)
-        return at, len(data), zlib.crc32(data)
+        return at, len(data), zlib.crc32(data), seal(data).hex()
 
     def commit(self, place: Place) -> None:
         """Have a state count from now on: it is on the disk, and all rows too."""
         self._sync()
         self._serial += 1
-        record = RECORD.pack(self._serial, *place)
+        at, size, checksum, sealed = place
+        record = RECORD.pack(self._serial, at, size, checksum, bytes.fromhex(sealed))
         self._write(RECORDS[self._serial % 2], record + CHECK.pack(zlib.crc32(record)))
         self._sync()
         self._named.append(place)
@@ -248,27 +263,33 @@ class PartFile:
             at = self._named.pop(0)[0]
             self._free.append((at, self._rooms.pop(at)))
 
-    def load(self, place: Sequence[int]) -> tuple[Mapping[str, Any], Mapping[str, np.ndarray]]:
+    def load(self, place: Sequence[Any]) -> tuple[Mapping[str, Any], Mapping[str, np.ndarray]]:
         """The state at a place and its arrays.
 
         Raises
         ------
+        UnknownWriter
+            When it was not written with this cache, and is not trusted.
         FormatError
             When there is none.
         """
         try:
-            at, size, checksum = map(int, place)
-            data = self.read(at, size)
-            if zlib.crc32(data) != checksum:
+            at, size, checksum, sealed = place
+            data = self.read(int(at), int(size))
+            if zlib.crc32(data) != int(checksum):
                 raise ValueError("a state was changed")
+            if not self._trusted and seal(data).hex() != sealed:
+                raise UnknownWriter(FOREIGN.format(path=self.path))
             head, found, rest = data.partition(b"\n")
-            state, arrays, first = json.loads(head), {}, 0
+            state, arrays, first = from_json(head), {}, 0
             for name, kind, count in state["arrays"]:
                 dtype = np.dtype(kind)
                 if dtype.str not in ("<f8", "<i8") or not found:
                     raise ValueError(f"an array of {kind}")
-                arrays[str(name)] = np.frombuffer(rest, dtype, count, first)
+                arrays[str(name)] = np.frombuffer(rest, dtype, int(count), first)
                 first += dtype.itemsize * count
+        except UnknownWriter:
+            raise
         except (ValueError, KeyError, TypeError, OverflowError) as fault:
             raise FormatError(DAMAGED.format(path=self.path, why=fault)) from None
         return state, arrays
@@ -277,21 +298,21 @@ class PartFile:
         if self._stream.read(len(MAGIC)) != MAGIC:
             raise FormatError(DAMAGED.format(path=self.path, why="its first line is another"))
         found = sorted(filter(None, map(self._record, RECORDS)))
-        for serial, *place in reversed(found):
+        for serial, place in reversed(found):
             with suppress(FormatError):
                 self.state, self.arrays = self.load(place)
-                at, size, checksum = place
-                self._serial, self._named, self._rooms = serial, [(at, size, checksum)], {at: size}
+                at, size, _, _ = place
+                self._serial, self._named, self._rooms = serial, [place], {at: size}
                 self._end = os.fstat(self._stream.fileno()).st_size
                 return
         raise FormatError(DAMAGED.format(path=self.path, why="it holds no complete state"))
 
-    def _record(self, at: int) -> tuple[int, int, int, int] | None:
+    def _record(self, at: int) -> tuple[int, Place] | None:
         data = self.read(at, RECORD.size + CHECK.size)
         if CHECK.unpack(data[RECORD.size :])[0] != zlib.crc32(data[: RECORD.size]):
             return None
-        serial, place, size, checksum = RECORD.unpack(data[: RECORD.size])
-        return (serial, place, size, checksum) if serial else None
+        serial, place, size, checksum, sealed = RECORD.unpack(data[: RECORD.size])
+        return (serial, (place, size, checksum, sealed.hex())) if serial else None
 
     def _place(self, size: int, kept: bool) -> int:
         """Where so many bytes fit: where an older state was, or at the end."""

@@ -15,6 +15,7 @@ import shlex
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, field
 from difflib import get_close_matches
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -175,6 +176,13 @@ def _number(text: str) -> float:
         raise ValueError(f"'{text}' is not a number") from None
 
 
+def _size(text: str) -> float:
+    found = _number(text)
+    if not isfinite(found):
+        raise ValueError(f"'{text}' is no finite number")
+    return found
+
+
 def _digits(text: str) -> int:
     if not (text.isdecimal() and len(text) <= 2 and 0 < int(text) <= MOST_DIGITS):
         raise ValueError(
@@ -263,9 +271,9 @@ def _need_kind(kind: str, given: Collection[str]) -> None:
 
 
 _TOLERANCES: dict[str, Callable[[str], Any]] = {
-    "abs": _number,
-    "rel": _number,
-    "peak": _number,
+    "abs": _size,
+    "rel": _size,
+    "peak": _size,
     "digits": _digits,
 }
 _INSTRUCTIONS: dict[str, Callable[[Reference, str | None, str], None]] = {

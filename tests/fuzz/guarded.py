@@ -25,8 +25,9 @@ from tempfile import TemporaryDirectory
 
 from benchmarks.memory import forget_peak, peak
 
+from .calls import Broken
 from .cases import Case
-from .kinds import KINDS, Broken
+from .kinds import KINDS
 
 #: What a case may take, CPU [s] and memory [MB]; more is a fault.
 ALLOWED_CPU, ALLOWED_MEMORY = 5.0, 500.0

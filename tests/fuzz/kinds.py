@@ -6,33 +6,25 @@ and so is exit code 70.
 
 from __future__ import annotations
 
-import io
 import signal
 from collections.abc import Callable, Mapping
-from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from random import Random
 
 import adamslite
-from adamslite.cli import main as command_line
-from adamslite.cli.commands.codes import BROKEN
 from adamslite.language.diagnostics import DeckError, Diagnostic
 from adamslite.language.method import declared
 from adamslite.reading.read import read_commands as read_command_file
 
-from . import byte_changes, grammar, lsp_messages, material, text_changes
+from . import byte_changes, grammar, kept_files, lsp_messages, material, text_changes
+from .calls import call
 from .cases import Case
 
 #: CPU after which a run is interrupted as by Ctrl-C [s].
 PATIENCE = 2.0
 DECK, COMMANDS, SPEC, OUTPUT = "deck.adm", "deck.acf", "scene.toml", "results.csv"
-CODES = {0: "done", 1: "different", 2: "usage", 3: "errors", 4: "stopped", 5: "not read"}
-
-
-class Broken(Exception):
-    """Exit code 70: what the program reported as its own fault."""
 
 
 @dataclass(frozen=True)
@@ -65,17 +57,6 @@ def encoded(text: str) -> bytes:
 def has_place(each: Diagnostic) -> bool:
     """Whether a message names a line, which that about messages that are left out does not."""
     return each.span.line >= 1 or each.code == "more-messages"
-
-
-def call(*words: str) -> str:
-    """The word for the exit code of a command."""
-    told = io.StringIO()
-    with redirect_stdout(io.StringIO()), redirect_stderr(told):
-        code = command_line.main(words)
-    if code == BROKEN:
-        raise Broken(told.getvalue().partition("not in your deck: ")[2].partition("\n")[0])
-    assert "Traceback" not in told.getvalue(), told.getvalue()
-    return CODES[code]
 
 
 # ---- decks ---------------------------------------------------------------------------------------
@@ -278,6 +259,12 @@ KINDS: Mapping[str, Kind] = {
         each: Kind(f"files .{each} are read and compared", changed_results(f".{each}"), diff, 600)
         for each in ("csv", "nc", "res", "req", "parquet", "mat")
     },
+    "part": Kind("unfinished runs are resumed", at_random(kept_files.part), kept_files.resume, 200),
+    "save": Kind(
+        "saved states are gone on from", at_random(kept_files.save), kept_files.reload, 100
+    ),
+    "store": Kind("files of sweeps are loaded", at_random(kept_files.store), kept_files.load, 300),
+    "fit": Kind("measurements to fit to", at_random(kept_files.measurement), kept_files.fit, 300),
     "lsp": Kind("sessions of an editor", at_random(lsp_messages.session), lsp_messages.serve, 100),
     "solve": Kind("short runs with every method", changed_run, solve, 60),
 }

@@ -57,6 +57,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--resume", metavar="OUT.part", type=Path,
         help="go on with a run that was ended, as it was requested; other flags are not repeated",
     )  # fmt: skip
+    parser.add_argument(
+        "--trust", action="store_true",
+        help="resume it although it was not written with this cache; it can run any code",
+    )  # fmt: skip
     add_run_flags(parser)
     talk = parser.add_argument_group("talk")
     talk.add_argument(
@@ -143,6 +147,8 @@ def _resumed(args: argparse.Namespace) -> "PartFile | None":
     if args.resume is None and args.deck is None:
         raise UsageError("give the name of a deck, or --resume OUT.part")
     if args.resume is None:
+        if args.trust:
+            raise UsageError("--trust goes with --resume OUT.part")
         return None
     from adamslite.cli.commands.unfinished import resumed
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import adamslite
 from adamslite.errors import FormatError, UsageError
-from adamslite.outputs.part_file import DAMAGED, SUFFIX, PartFile
+from adamslite.outputs.part_file import DAMAGED, SUFFIX, PartFile, UnknownWriter
 from adamslite.run_flags import run_options
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ def report(path: Path) -> None:
     """
     try:
         part = PartFile.open(path)
-    except (FormatError, OSError) as fault:
+    except (FormatError, UnknownWriter, OSError) as fault:
         sys.stderr.write(f"adamslite: an earlier run has left {path} behind: {fault}\n")
         return
     reached = f"t = {float(part.state['time']):.6g} of {float(part.state['end']):g}"
@@ -92,7 +92,7 @@ def resumed(args: argparse.Namespace) -> PartFile:
     if given or args.output:
         words = ", ".join([*given, *(["-o"] if args.output else [])])
         raise UsageError(f"--resume goes on with a run as it was requested; leave out {words}")
-    part = PartFile.open(path)
+    part = PartFile.open(path, args.trust)
     try:
         facts = part.state["facts"]
         for option, value in {**_checked(facts["options"]), **_texts(facts)}.items():
