@@ -24,10 +24,12 @@ COMMENT = re.compile(rf"{IGNORES}[ \t]*ignore\b([^\n]*)", re.IGNORECASE)
 CODES = re.compile(r"[ \t]*[\w-]+(?:[ \t]*,[ \t]*[\w-]+)*")
 CODE = re.compile(r"[\w-]+")
 
-#: Larger decks and descriptions are not read, nor more of a pipe or a device [bytes].
+#: Larger decks and descriptions are not read [bytes].
 MOST = 1 << 28
+#: Nor more than that of a pipe, and of a device, which may have no end [bytes].
+OF_PIPE, OF_DEVICE = 200_000_000, 1 << 24
 #: What is asked for at once, of what has no size [bytes].
-PIECE = 1 << 24
+PIECE = 1 << 22
 
 
 def decoded(data: bytes) -> str:
@@ -51,18 +53,25 @@ def contents(path: str | Path, most: int = 0) -> bytes:
     Raises
     ------
     OSError
-        When there are more. A device or a pipe, which may have no end, gives ``MOST`` at most.
+        When there are more. A pipe gives ``OF_PIPE`` at most, a device ``OF_DEVICE``.
     """
     with open(path, "rb") as file:
         facts = os.fstat(file.fileno())
         plain = stat.S_ISREG(facts.st_mode)
-        most = most or (_half_of_memory() if plain else MOST)
-        found = file.read() if plain and facts.st_size <= most else b""
-        while not plain and len(found) <= most and (more := file.read(PIECE)):
-            found += more
-    if max(facts.st_size, len(found)) > most:
-        raise OSError(errno.EFBIG, f"more than {most / 1e6:.0f} MB are not read", str(path))
-    return found
+        if plain:
+            most = most or _half_of_memory()
+            if facts.st_size <= most:
+                return file.read()
+        else:
+            rest = OF_DEVICE if stat.S_ISCHR(facts.st_mode) else OF_PIPE
+            most = min(most or rest, rest)
+            pieces, size = list[bytes](), 0
+            while size <= most and (more := file.read(PIECE)):
+                pieces.append(more)
+                size += len(more)
+            if size <= most:
+                return b"".join(pieces)
+    raise OSError(errno.EFBIG, f"more than {most / 1e6:.0f} MB are not read", str(path))
 
 
 @cache

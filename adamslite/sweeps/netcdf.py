@@ -165,6 +165,8 @@ def _sweep(file: Any) -> Sweep:
         meta={name: _text(getattr(file, name.replace(" ", "_"))) for name in facts}, units=units,
     )  # fmt: skip
     sweep.outcomes, sweep.messages = (_read_words(file, name) for name in ("outcome", "message"))
+    if {len(sweep.outcomes), len(sweep.messages)} != {len(sweep)}:
+        raise ValueError(f"{len(sweep)} runs have {len(sweep.outcomes)} outcomes")
     sweep.summaries[:] = np.column_stack([found[COUNTER][name] for name in SUMMARY])
     if sweep.measured:
         sweep.measures[:] = np.column_stack(list(found[MEASURE].values()))

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import zlib
+from collections import Counter
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from io import BytesIO
 from math import radians
 from pathlib import Path
 from typing import TYPE_CHECKING
-from xml.etree.ElementTree import Element, ParseError, iterparse
+from xml.etree.ElementTree import Element, ParseError, XMLPullParser
 from xml.parsers.expat import ExpatError, ParserCreate
 
 import numpy as np
@@ -39,6 +39,8 @@ INPUT = "input"
 #: Kinds of steps that give the motion.
 MOTION = ("initialConditions", "dynamic", "kinematic", "static", "quasiStatic", None)
 HEAD = 4096
+#: Bytes given to the parser at once, which begins again with what is longer.
+CHUNK = 1 << 18
 #: Results are four elements deep.
 DEEPEST = 20
 
@@ -78,8 +80,8 @@ def _read_xml(path: str | Path, data: bytes) -> Results:
         raise FormatError(f"{path} declares a document type, which results files of ADAMS do not")
     found = _File()
     try:
-        for element in _elements(data):
-            _take(found, element)
+        for event, element in _elements(data):
+            _take(found, event, element)
         return _results(found)
     except ParseError as fault:
         raise FormatError(f"{path} is damaged or cut off: {fault}") from None
@@ -105,32 +107,48 @@ def _declares_type(data: bytes) -> bool:
     parser = ParserCreate()
     parser.StartDoctypeDeclHandler = lambda name, *_: found.append(name)
     parser.EntityDeclHandler = parser.StartElementHandler = begin
-    # A code of letters that is none is a LookupError; the reader reports it.
-    with suppress(_Begun, ExpatError, LookupError):
+    # A code of letters that is none is a LookupError, one of several bytes a ValueError; the reader
+    # reports it.
+    with suppress(_Begun, ExpatError, LookupError, ValueError):
         parser.Parse(data, True)
     return bool(found)
 
 
-def _elements(data: bytes) -> Iterator[Element]:
-    """Complete elements in their order, and comments."""
-    depth = 0
-    for event, element in iterparse(BytesIO(data), events=("start", "end", "comment")):
-        depth += {"start": 1, "end": -1}.get(event, 0)
-        if depth > DEEPEST:
-            raise FormatError(f"its elements lie more than {DEEPEST} deep in each other")
-        if event != "start":
-            yield element
+def _elements(data: bytes) -> Iterator[tuple[str, Element]]:
+    """``end`` and complete elements in their order, ``comment``, and ``start`` of those that begin.
+
+    What is complete is taken out of what it lies in, except components.
+    """
+    parser, inside = XMLPullParser(("start", "end", "comment")), list[Element]()
+    for first in range(0, len(data) + 1, CHUNK):
+        parser.feed(data[first : first + CHUNK])
+        for event, element in parser.read_events():
+            if event == "start":
+                inside.append(element)
+            elif event == "end":
+                inside.pop()
+                if inside and _tag(inside[-1]) != "Entity":
+                    del inside[-1][:]
+            if len(inside) > DEEPEST:
+                raise FormatError(f"its elements lie more than {DEEPEST} deep in each other")
+            yield event, element
+    parser.close()
 
 
-def _take(found: _File, element: Element) -> None:
-    if not isinstance(element.tag, str):  # a comment
+def _tag(element: Element) -> str:
+    return str(element.tag).removeprefix(f"{{{NAMESPACE}}}")
+
+
+def _take(found: _File, event: str, element: Element) -> None:
+    if event == "comment":
         found.texts |= unpacked(element.text or "")
         return
-    tag = element.tag.removeprefix(f"{{{NAMESPACE}}}")
-    if tag == "StepMap":  # of several analyses the last one counts
-        found.names, found.ids, found.units, found.rows = [], [], [], []
-        for entity in element:
-            _take_entity(found, entity)
+    tag = _tag(element)
+    if event == "start":
+        if tag == "StepMap":  # of several analyses the last one counts
+            found.names, found.ids, found.units, found.rows = [], [], [], []
+    elif tag == "Entity":
+        _take_entity(found, element)
     elif tag == "Step":
         _take_step(found, element)
     elif tag == "ModelInfo":
@@ -140,9 +158,6 @@ def _take(found: _File, element: Element) -> None:
     elif tag == "Results":
         if element.tag == tag:
             raise FormatError("it is not in the namespace of results files of ADAMS")
-        return
-    if tag == "Step":
-        element.clear()
 
 
 def _take_entity(found: _File, entity: Element) -> None:
@@ -193,7 +208,7 @@ def _decimals(word: str) -> int:
 def _results(found: _File) -> Results:
     if "time" not in found.names:
         raise FormatError("it names no TIME")
-    repeated = {name for name in found.names if found.names.count(name) > 1}
+    repeated = [name for name, count in Counter(found.names).items() if count > 1]
     if repeated:
         raise FormatError(f"'{min(repeated)}' is there twice")
     order = np.argsort(np.argsort(found.ids, kind="stable"))  # numbers are in the order of the ids
