@@ -280,6 +280,8 @@ def _value(faults: Faults, value: Any, takes: Takes, rule: str, path: Path) -> A
         return tuple((float(x), float(y)) for x, y in value)
     if takes == "inertia" and not isinstance(value, list):
         return (float(value),) * 3
+    if takes == "number":
+        return float(value)  # arrays of whole numbers beyond 64 bits are no arrays of numbers
     return tuple(map(float, value)) if takes in ("vector", "range", "inertia") else value
 
 
