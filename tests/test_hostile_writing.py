@@ -87,6 +87,21 @@ def test_no_command_replaces_a_file_of_the_user(
     assert main(words) == main(words) == 0
 
 
+def test_matrices_replace_no_table_of_the_user(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys
+) -> None:
+    """Both are numbers and nothing else."""
+    monkeypatch.chdir(tmp_path)
+    words = scene(tmp_path, f"SIMULATE/STATIC\n{WRITING[3].format('wind')}\n")
+    for number in ("0.0 1.5\n", "17"):
+        (tmp_path / "winda").write_text(number)
+        assert main(words) == 2
+        assert "is there and is no file of results" in capsys.readouterr().err
+        assert (tmp_path / "winda").read_text() == number
+    (tmp_path / "winda").unlink()
+    assert main(words) == main(words) == 0
+
+
 @pytest.mark.parametrize("suffix", ["csv", "req", "res"])
 def test_results_that_nobody_named_replace_results_alone(
     suffix: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -13,7 +13,7 @@ import numpy as np
 
 from adamslite.errors import UsageError
 from adamslite.outputs.second_order import save_second_order
-from adamslite.outputs.whole_files import whole_file
+from adamslite.outputs.whole_files import PLAIN, whole_file
 
 if TYPE_CHECKING:
     from adamslite.elements.linear import Linear
@@ -119,6 +119,7 @@ def _save_tables(model: Linearization, path: Path) -> list[Path]:
         if table.shape[1] and table.shape[0] or letter == "a":
             paths.append(path.with_name(path.name + letter))
             with whole_file(paths[-1]) as stream:
+                stream.write(PLAIN)
                 stream.writelines(" ".join(map(repr, row)) + "\n" for row in table.tolist())
     return paths
 

@@ -9,9 +9,13 @@ from typing import IO, Any, Literal, overload
 from adamslite.errors import UsageError
 from adamslite.notation import STDOUT
 
-#: How files begin that this program writes: tables, what LINEAR and SAVE leave; matrices for MATLAB
-#: hold nothing but numbers.
-STARTS = (b"# adamslite", b"mode,frequency,", b'{\n "coordinates"', b'{\n "saved by adamslite"')
+#: How matrices for MATLAB begin, which have no room for a word: no reader of numbers minds blanks.
+PLAIN = " \t "
+#: How files begin that this program writes: tables, what LINEAR and SAVE leave.
+STARTS = (
+    b"# adamslite", b"mode,frequency,", b'{\n "coordinates"', b'{\n "saved by adamslite"',
+    PLAIN.encode(),
+)  # fmt: skip
 #: What is in the head of a page, of files .res and .req, and of a fitted deck.
 MARKS = (
     b'name="generator" content="adamslite"',
@@ -19,7 +23,7 @@ MARKS = (
     b" 2000-01-01 00:00:00 ",
     b"Fitted by adamslite to ",
 )
-HEAD, NUMBERS = 500, b"0123456789+-.e naif\n"
+HEAD = 500
 
 
 @overload
@@ -162,4 +166,4 @@ def _is_own(path: Path) -> bool:
     with open(path, "rb") as stream:
         head = stream.read(HEAD)
     marked = any(mark in head for mark in MARKS)
-    return not head or marked or head.startswith(STARTS) or not head.translate(None, NUMBERS)
+    return not head or marked or head.startswith(STARTS)

@@ -9,7 +9,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from math import radians
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 from xml.etree.ElementTree import Element, ParseError, XMLPullParser
 from xml.parsers.expat import ExpatError, ParserCreate
 
@@ -122,7 +122,8 @@ def _elements(data: bytes) -> Iterator[tuple[str, Element]]:
     parser, inside = XMLPullParser(("start", "end", "comment")), list[Element]()
     for first in range(0, len(data) + 1, CHUNK):
         parser.feed(data[first : first + CHUNK])
-        for event, element in parser.read_events():
+        events = cast("Iterator[tuple[str, Element]]", parser.read_events())
+        for event, element in events:
             if event == "start":
                 inside.append(element)
             elif event == "end":
