@@ -92,8 +92,9 @@ POINTS, ROWS_OF_GUARDS = 10, 7
 
 
 class Tape(Record):
-    """Rows of ``width`` numbers: the head, the workspace, ``base`` (9 nb,) and the first ``kept``
-    numbers of the history; ``rows``: how many there are, ``full``: there was no room for more.
+    """Rows of ``width`` numbers: the head, the workspace, ``base`` (9 nb,) and of the history the
+    first ``kept`` numbers and the first ``more`` from ``further`` on; ``rows``: how many there are,
+    ``full``: there was no room for more.
 
     ``width`` 0: nothing is kept.
     """
@@ -101,6 +102,8 @@ class Tape(Record):
     width: int
     rows: int
     kept: int
+    further: int
+    more: int
     full: bool
     data: Reals
 

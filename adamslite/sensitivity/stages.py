@@ -28,7 +28,7 @@ from adamslite.integrators.motion_equations import project_on_constraints, track
 from adamslite.integrators.radau.coefficients import INVERSE, NODE
 from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.dense_output import collocated
-from adamslite.integrators.radau.history import Z_ROWS
+from adamslite.integrators.radau.history import RATES, Z_ROWS
 from adamslite.integrators.radau.stages import (
     put_stage,
     radau_jacobian,
@@ -105,10 +105,19 @@ def lay_stages(P: Problem, S: Forward, here: Reals) -> None:
     C.t = here[TAPE_TIME] - h
     copy(P.W, here[TAPE_HEAD:], size)
     copy(P.base, here[TAPE_HEAD + size :], 9 * P.sizes.nb)
-    copy(P.history, here[TAPE_HEAD + size + 9 * P.sizes.nb :], P.tape.kept)
+    restore_history(P, here[TAPE_HEAD + size + 9 * P.sizes.nb :], h)
     for stage in range(3):
         put_stage(P, stage + 1, h)
         copy(S.stages[stage * size :], P.W, size)
+
+
+@native
+def restore_history(P: Problem, kept: Reals, h: float) -> None:
+    """The history of the run at a step, of which the tape keeps all but the rates of stages."""
+    T, w, Y = P.tape, 2 * P.sizes.n + P.sizes.ns, P.history
+    copy(Y, kept, T.kept)
+    copy(Y[T.further :], kept[T.kept :], T.more)
+    rate_rows(P, Y, w, RATES, 0, w, h)
 
 
 @native
@@ -194,10 +203,10 @@ def between(P: Problem, start: Reals, H: Reals, w: int, x: float, y: Reals) -> N
 
 
 @native
-def rate_rows(P: Problem, H: Reals, w: int, first: int, last: int, h: float) -> None:
-    """y' of the stages, of entries ``first`` .. ``last``."""
+def rate_rows(P: Problem, H: Reals, w: int, at: int, first: int, last: int, h: float) -> None:
+    """y' of the stages, of entries ``first`` .. ``last``, into the rows from ``at`` + 1 on."""
     for stage in range(3):
-        row, d = INVERSE + 3 * stage, H[(1 + RATE_ROWS + stage) * w :]
+        row, d = INVERSE + 3 * stage, H[(1 + at + stage) * w :]
         a, b, c = P.tableau[row] / h, P.tableau[row + 1] / h, P.tableau[row + 2] / h
         for i in range(first, last):
             s = H[i]
@@ -208,8 +217,8 @@ def rate_rows(P: Problem, H: Reals, w: int, first: int, last: int, h: float) -> 
 def motion(P: Problem, S: Forward, H: Reals, h: float) -> None:
     """Rates and velocities of the stages from places, turns and states."""
     n, w, size = P.sizes.n, S.width, P.W.size
-    rate_rows(P, H, w, 0, n, h)
-    rate_rows(P, H, w, 2 * n, w, h)
+    rate_rows(P, H, w, RATE_ROWS, 0, n, h)
+    rate_rows(P, H, w, RATE_ROWS, 2 * n, w, h)
     for stage in range(3):
         y, d = H[(1 + stage) * w :], H[(1 + RATE_ROWS + stage) * w :]
         copy(P.W, S.stages[stage * size :], size)
@@ -219,7 +228,7 @@ def motion(P: Problem, S: Forward, H: Reals, h: float) -> None:
             project_on_constraints(P, z, P.F)
             for i in range(n):
                 y[n + i] += P.F[i]
-    rate_rows(P, H, w, n, 2 * n, h)
+    rate_rows(P, H, w, RATE_ROWS, n, 2 * n, h)
 
 
 @native

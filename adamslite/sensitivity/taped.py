@@ -19,7 +19,7 @@ from adamslite.integrators.audit_record import TAPE_HEAD
 from adamslite.integrators.bdf.history import room
 from adamslite.integrators.contract import AUDIT, DONE
 from adamslite.integrators.linalg.plan import TINY
-from adamslite.integrators.radau.history import Y_ROWS
+from adamslite.integrators.radau.history import KEPT_ROWS, KEPT_Z, Y_ROWS
 from adamslite.results.outcomes import Outcome
 from adamslite.sensitivity.begin import ROWS
 from adamslite.sensitivity.contract import Forward
@@ -170,7 +170,7 @@ def lay_tape(system: System, rows: int, method: str) -> None:
     """Have the run that is ready keep its states."""
     tape, audit = system.tape, system.audit
     tape.rows, tape.full = 0, False
-    tape.kept = _stages(system) if method == "RADAU" else 0
+    tape.kept, tape.further, tape.more = _kept(system, method)
     tape.width = _width(system, method)
     tape.data = np.zeros(rows * tape.width)
     for name in ("previous", "previous_before"):
@@ -181,14 +181,16 @@ def lay_tape(system: System, rows: int, method: str) -> None:
 
 def _width(system: System, method: str) -> int:
     """Numbers of a row."""
-    kept = _stages(system) if method == "RADAU" else 0
-    return TAPE_HEAD + system.W.size + 9 * len(system.model.bodies) + kept
+    kept, _, more = _kept(system, method)
+    return TAPE_HEAD + system.W.size + 9 * len(system.model.bodies) + kept + more
 
 
-def _stages(system: System) -> int:
-    """How many numbers of the history are those of the stages of a step."""
-    z = system.m + system.nv + system.ns + system.holonomic
-    return Y_ROWS * (2 * system.n + system.ns) + 3 * z
+def _kept(system: System, method: str) -> tuple[int, int, int]:
+    """Of the history: the first numbers that are kept, where others begin, and how many."""
+    if method != "RADAU":
+        return 0, 0, 0
+    w, z = 2 * system.n + system.ns, system.m + system.nv + system.ns + system.holonomic
+    return KEPT_ROWS * w, Y_ROWS * w, KEPT_Z * z
 
 
 def followed(system: System, method: str, found: Iterable[Direction]) -> Along:

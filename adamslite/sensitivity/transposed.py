@@ -22,6 +22,7 @@ from adamslite.integrators.radau.stages import (
 from adamslite.native.translate import Reals, copy, native
 from adamslite.sensitivity.corrector import matrix
 from adamslite.sensitivity.rates import take_state
+from adamslite.sensitivity.stages import restore_history
 
 ENTRY = "adamslite.sensitivity.transposed.transposed"
 # What is to be done.
@@ -81,7 +82,7 @@ def lay(P: Problem, here: Reals) -> None:
     C.t = here[TAPE_TIME] - here[TAPE_STEP]
     behind = TAPE_HEAD + P.W.size
     copy(P.base, here[behind:], 9 * P.sizes.nb)
-    copy(P.history, here[behind + 9 * P.sizes.nb :], P.tape.kept)
+    restore_history(P, here[behind + 9 * P.sizes.nb :], here[TAPE_STEP])
 
 
 @native

@@ -52,5 +52,7 @@ def tape_row(P: Problem, t: float, kind: float) -> None:
     copy(row[TAPE_HEAD:], P.W, P.W.size)
     behind = TAPE_HEAD + P.W.size
     copy(row[behind:], P.base, 9 * P.sizes.nb)
-    copy(row[behind + 9 * P.sizes.nb :], P.history, T.kept)
+    behind += 9 * P.sizes.nb
+    copy(row[behind:], P.history, T.kept)
+    copy(row[behind + T.kept :], P.history[T.further :], T.more)
     T.rows += 1

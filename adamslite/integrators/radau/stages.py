@@ -75,7 +75,8 @@ def stage_z(P: Problem, row: int) -> int:
 def radau_jacobian(P: Problem, L: Plan, h: float) -> None:
     """J_0, J_1, J_2 at the middle stage, one after the other in ``P.parts``."""
     n, size, c, K = P.sizes.n, P.J.size, P.coef, P.parts
-    y, d = P.history[2 * (2 * n + P.sizes.ns) :], P.history[5 * (2 * n + P.sizes.ns) :]
+    w = 2 * n + P.sizes.ns
+    y, d = P.history[2 * w :], P.history[(RATES + 2) * w :]
     put_stage(P, 2, h)
     for part in range(3):
         for k in range(5):
