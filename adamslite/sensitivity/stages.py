@@ -23,7 +23,7 @@ from adamslite.integrators.audit_record import (
 )
 from adamslite.integrators.contract import DONE, SINGULAR_MASS, Problem
 from adamslite.integrators.implicit.formulation import equations_kept, is_stabilised
-from adamslite.integrators.linalg.plan import HUGE, Plan
+from adamslite.integrators.linalg.plan import HUGE, TINY, Plan
 from adamslite.integrators.motion_equations import project_on_constraints, track
 from adamslite.integrators.radau.coefficients import INVERSE, NODE
 from adamslite.integrators.radau.control import Control
@@ -162,10 +162,12 @@ def solve_stages(P: Problem, L: Plan, D: Tangents, S: Forward, number: int, h: f
         stage_tangents(P, D, S, number, H)
         stage_increments(P, L)
         size = apply(P, H, w)
+        rate = size / max(last, TINY) if turn > 0 else 1.0
+        left = min(1.0, rate / (1.0 - min(rate, 0.5))) * size
         reach = max(scale(P, H, 0, P.sizes.n), scale(P, H, 2 * P.sizes.n, w))
         small = min(reach, h * scale(P, H, P.sizes.n, w))
         enough = 0.0 if S.exact else SHARE * P.settings.error * small
-        if size <= max(enough, LEAST * reach):
+        if left <= max(enough, LEAST * reach):
             motion(P, S, H, h)
             return turn + 1
         if turn > 1 and not size < STALLED * last:
@@ -185,9 +187,25 @@ def guess(P: Problem, S: Forward, H: Reals, h: float) -> None:
         for stage in range(3):
             between(P, old, H, w, 1.0 + P.tableau[NODE + stage] * h / S.h, S.y[stage * w :])
         copy(H[w:], S.y, 3 * w)
+        continue_z(P, S, H, h)
     else:
         for stage in range(3):
             copy(H[(1 + stage) * w :], H, w)
+
+
+@native
+def continue_z(P: Problem, S: Forward, H: Reals, h: float) -> None:
+    """z of the stages on the parabola through those of the last step."""
+    e, Z = z_width(P), H[ROWS * S.width :]
+    a, b = P.tableau[NODE], P.tableau[NODE + 1]
+    x, y, z = 1.0 + a * h / S.h, 1.0 + b * h / S.h, 1.0 + h / S.h
+    for k in range(e):
+        first, second, third = Z[k], Z[e + k], Z[2 * e + k]
+        slope = (third - second) / (1.0 - b)
+        bend = (slope - (second - first) / (b - a)) / (1.0 - a)
+        Z[k] = third + (x - 1.0) * (slope + (x - b) * bend)
+        Z[e + k] = third + (y - 1.0) * (slope + (y - b) * bend)
+        Z[2 * e + k] = third + (z - 1.0) * (slope + (z - b) * bend)
 
 
 @native

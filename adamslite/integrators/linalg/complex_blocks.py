@@ -58,14 +58,27 @@ def solve_lu_complex(A: Reals, o: int, s: int, pivots: Ints, po: int, x: Reals, 
         a, b = 2 * (xo + k), 2 * (xo + pivots[po + k])
         x[a], x[b] = x[b], x[a]
         x[a + 1], x[b + 1] = x[b + 1], x[a + 1]
-        for j in range(k):
-            take_entry(A, o + k * s + j, x, xo + j, x, xo + k)
+        take_product(A[2 * (o + k * s) :], x[2 * xo :], k, x[a:])
     for k in range(s - 1, -1, -1):
-        for j in range(k + 1, s):
-            take_entry(A, o + k * s + j, x, xo + j, x, xo + k)
+        to = 2 * (xo + k)
+        take_product(A[2 * (o + k * s + k + 1) :], x[to + 2 :], s - k - 1, x[to:])
         at, to = 2 * (o + k * s + k), 2 * (xo + k)
         p, q = x[to], x[to + 1]
         x[to], x[to + 1] = A[at] * p - A[at + 1] * q, A[at] * q + A[at + 1] * p
+
+
+@native
+def take_product(A: Reals, x: Reals, count: int, y: Reals) -> None:
+    """y[0] -= A . x of ``count`` entries, in sums that do not wait for each other."""
+    a, b, c, d = 0.0, 0.0, 0.0, 0.0
+    for j in range(count):
+        p, q, r, s = A[2 * j], A[2 * j + 1], x[2 * j], x[2 * j + 1]
+        a += p * r
+        b += q * s
+        c += p * s
+        d += q * r
+    y[0] -= a - b
+    y[1] -= c + d
 
 
 @native
@@ -175,13 +188,11 @@ def backward_complex(L: Plan, A: Reals, x: Reals, work: Reals) -> None:
             work[i] = -x[2 * p + i]
             x[2 * p + i] = 0.0
         for i in range(s):
-            for j in range(s):
-                take_entry(A, L.diagonal[k] + i * s + j, work, j, x, p + i)
+            take_product(A[2 * (L.diagonal[k] + i * s) :], work, s, x[2 * (p + i) :])
 
 
 @native
 def subtract_complex(A: Reals, o: int, rows: int, columns: int, x: Reals, p: int, q: int) -> None:
     """x[q:] -= A[o] x[p:]."""
     for i in range(rows):
-        for j in range(columns):
-            take_entry(A, o + i * columns + j, x, p + j, x, q + i)
+        take_product(A[2 * (o + i * columns) :], x[2 * p :], columns, x[2 * (q + i) :])
