@@ -39,11 +39,12 @@ from adamslite.integrators.radau.stages import (
 from adamslite.integrators.stepping.output import WITHIN
 from adamslite.native.translate import Reals, copy, native
 from adamslite.sensitivity.contract import Forward, Tangents
+from adamslite.sensitivity.corrector import WORST_RATE, farthest, farthest_apart
 from adamslite.sensitivity.outputs import write_outputs
 from adamslite.sensitivity.rates import spun
 from adamslite.sensitivity.stage_error import note_stage_errors
 from adamslite.sensitivity.start import at_start, jump
-from adamslite.sensitivity.tangents import put_direction, tangent
+from adamslite.sensitivity.tangents import clear, put_direction, tangent
 
 # Rows of a history: the start of the step, three stages, their rates, and behind them z.
 RATE_ROWS, ROWS = 3, 7
@@ -123,12 +124,14 @@ def restore_history(P: Problem, kept: Reals, h: float) -> None:
 @native
 def by_matrices(P: Problem, L: Plan, D: Tangents, S: Forward, h: float) -> bool:
     """Sensitivities at the stages by all numbers, with new matrices where old ones are slow."""
-    number, slowest = 0, 0
+    number, slowest, again = 0, 0, False
     while number < D.count:
         if not ready(P, L, S, h):
             return False
+        guess(P, S, S.history[number * S.room :], h, again)
         turns = solve_stages(P, L, D, S, number, h)
-        if turns >= SLOW and S.age > 0:
+        again = turns >= SLOW and S.age > 0
+        if again:
             S.age = KEEP_STEPS
         elif turns > MOST:
             return False
@@ -151,61 +154,61 @@ def ready(P: Problem, L: Plan, S: Forward, h: float) -> bool:
 
 @native
 def solve_stages(P: Problem, L: Plan, D: Tangents, S: Forward, number: int, h: float) -> int:
-    """Sensitivities at the stages; the iterations that they took, beyond ``MOST`` when increments
-    do not come to nothing.
+    """Sensitivities at the stages from a guess; the iterations that they took, beyond ``MOST`` when
+    increments do not come to nothing.
     """
-    H, w = S.history[number * S.room :], S.width
-    guess(P, S, H, h)
-    last = HUGE
+    H, w, n = S.history[number * S.room :], S.width, P.sizes.n
+    last, before = HUGE, HUGE
+    motion(P, S, H, h)
     for turn in range(MOST):
-        motion(P, S, H, h)
         stage_tangents(P, D, S, number, H)
         stage_increments(P, L)
+        for stage in range(3):
+            copy(S.y[stage * n :], H[(1 + stage) * w + n :], n)
         size = apply(P, H, w)
-        rate = size / max(last, TINY) if turn > 0 else 1.0
-        left = min(1.0, rate / (1.0 - min(rate, 0.5))) * size
-        reach = max(scale(P, H, 0, P.sizes.n), scale(P, H, 2 * P.sizes.n, w))
-        small = min(reach, h * scale(P, H, P.sizes.n, w))
-        enough = 0.0 if S.exact else SHARE * P.settings.error * small
-        if left <= max(enough, LEAST * reach):
-            motion(P, S, H, h)
-            return turn + 1
-        if turn > 1 and not size < STALLED * last:
-            motion(P, S, H, h)
+        motion(P, S, H, h)
+        moved = 0.0
+        for stage in range(3):
+            moved = max(moved, farthest_apart(H[(1 + stage) * w + n :], S.y[stage * n :], n))
+        reach, speed = max(scale(P, H, 0, n), scale(P, H, 2 * n, w)), scale(P, H, n, 2 * n)
+        share, least = SHARE * P.settings.error, LEAST * reach
+        if S.exact:
+            if size <= least:
+                return turn + 1
+        elif size * left_of(size, last) <= max(share * min(reach, h * speed), least):
+            if moved * left_of(moved, before) <= max(share * speed, least / h):
+                return turn + 1
+        if turn > 1 and not size < STALLED * last and (S.exact or not moved < STALLED * before):
             return turn + 1 if size <= max(ROUND_OFF * reach, S.floor[number]) else MOST + 1
-        last = size
-    motion(P, S, H, h)
+        last, before = size, moved
     return MOST
 
 
 @native
-def guess(P: Problem, S: Forward, H: Reals, h: float) -> None:
-    """Stages on the polynomial of the last step, else where it ended; z as it was."""
+def left_of(size: float, last: float) -> float:
+    """What an increment leaves, as a share of it, where increments go on to shrink as they did from
+    the last one.
+    """
+    rate = size / max(last, TINY)
+    return rate / (1.0 - rate) if rate < WORST_RATE and last < HUGE else 1.0
+
+
+@native
+def guess(P: Problem, S: Forward, H: Reals, h: float, again: bool) -> None:
+    """Stages on the polynomial of the last step, else where it ended, and z as it was; what it was
+    is lost where the step is done ``again``.
+    """
     w = S.width
-    if S.h > 0.0 and h < LONGER * S.h:
+    if again:
+        clear(H[ROWS * w :], 3 * z_width(P))
+    if S.h > 0.0 and h < LONGER * S.h and not again:
         old = H[ROWS * w + 3 * z_width(P) :]
         for stage in range(3):
             between(P, old, H, w, 1.0 + P.tableau[NODE + stage] * h / S.h, S.y[stage * w :])
         copy(H[w:], S.y, 3 * w)
-        continue_z(P, S, H, h)
     else:
         for stage in range(3):
             copy(H[(1 + stage) * w :], H, w)
-
-
-@native
-def continue_z(P: Problem, S: Forward, H: Reals, h: float) -> None:
-    """z of the stages on the parabola through those of the last step."""
-    e, Z = z_width(P), H[ROWS * S.width :]
-    a, b = P.tableau[NODE], P.tableau[NODE + 1]
-    x, y, z = 1.0 + a * h / S.h, 1.0 + b * h / S.h, 1.0 + h / S.h
-    for k in range(e):
-        first, second, third = Z[k], Z[e + k], Z[2 * e + k]
-        slope = (third - second) / (1.0 - b)
-        bend = (slope - (second - first) / (b - a)) / (1.0 - a)
-        Z[k] = third + (x - 1.0) * (slope + (x - b) * bend)
-        Z[e + k] = third + (y - 1.0) * (slope + (y - b) * bend)
-        Z[2 * e + k] = third + (z - 1.0) * (slope + (z - b) * bend)
 
 
 @native
@@ -285,8 +288,7 @@ def scale(P: Problem, H: Reals, first: int, last: int) -> float:
     """The largest of the start and the stages, of entries ``first`` .. ``last``."""
     w, largest = 2 * P.sizes.n + P.sizes.ns, 1e-300
     for row in range(4):
-        for i in range(first, last):
-            largest = max(largest, abs(H[row * w + i]))
+        largest = max(largest, farthest(H[row * w + first :], last - first))
     return largest
 
 
