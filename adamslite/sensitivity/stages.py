@@ -48,9 +48,9 @@ from adamslite.sensitivity.tangents import clear, put_direction, tangent
 
 # Rows of a history: the start of the step, three stages, their rates, and behind them z.
 RATE_ROWS, ROWS = 3, 7
-# Increments stop at this share of ERROR against sensitivities and what velocities are in a step,
-# or where they are round-off; and after so many.
-SHARE, LEAST, MOST = 1e-2, 1e-15, 30
+# Increments stop where they leave this share of ERROR of sensitivities and of what velocities are
+# in a step, or where they are round-off; and after so many.
+SHARE, LEAST, MOST = 3e-3, 1e-15, 30
 # Increments that shrink no further than this are round-off, below that share.
 STALLED, ROUND_OFF = 0.95, 1e-6
 # Derivatives serve for so many steps, while increments take no more iterations than this.
@@ -157,31 +157,47 @@ def solve_stages(P: Problem, L: Plan, D: Tangents, S: Forward, number: int, h: f
     """Sensitivities at the stages from a guess; the iterations that they took, beyond ``MOST`` when
     increments do not come to nothing.
     """
-    H, w, n = S.history[number * S.room :], S.width, P.sizes.n
-    last, before = HUGE, HUGE
+    H, w, last, before = S.history[number * S.room :], S.width, HUGE, HUGE
     motion(P, S, H, h)
     for turn in range(MOST):
         stage_tangents(P, D, S, number, H)
         stage_increments(P, L)
-        for stage in range(3):
-            copy(S.y[stage * n :], H[(1 + stage) * w + n :], n)
         size = apply(P, H, w)
-        motion(P, S, H, h)
-        moved = 0.0
-        for stage in range(3):
-            moved = max(moved, farthest_apart(H[(1 + stage) * w + n :], S.y[stage * n :], n))
-        reach, speed = max(scale(P, H, 0, n), scale(P, H, 2 * n, w)), scale(P, H, n, 2 * n)
-        share, least = SHARE * P.settings.error, LEAST * reach
+        moved = change_velocities(P, S, H, h)
+        reach = max(scale(P, H, 0, P.sizes.n), scale(P, H, 2 * P.sizes.n, w))
         if S.exact:
-            if size <= least:
+            if size <= LEAST * reach:
                 return turn + 1
-        elif size * left_of(size, last) <= max(share * min(reach, h * speed), least):
-            if moved * left_of(moved, before) <= max(share * speed, least / h):
-                return turn + 1
+        elif is_little(P, H, h, reach, size * left_of(size, last), moved * left_of(moved, before)):
+            return turn + 1
         if turn > 1 and not size < STALLED * last and (S.exact or not moved < STALLED * before):
             return turn + 1 if size <= max(ROUND_OFF * reach, S.floor[number]) else MOST + 1
         last, before = size, moved
     return MOST
+
+
+@native
+def change_velocities(P: Problem, S: Forward, H: Reals, h: float) -> float:
+    """Rates and velocities from places, turns and states; the largest change of a velocity."""
+    n, w, largest = P.sizes.n, S.width, 0.0
+    for stage in range(3):
+        copy(S.y[stage * n :], H[(1 + stage) * w + n :], n)
+    motion(P, S, H, h)
+    for stage in range(3):
+        largest = max(largest, farthest_apart(H[(1 + stage) * w + n :], S.y[stage * n :], n))
+    return largest
+
+
+@native
+def is_little(P: Problem, H: Reals, h: float, reach: float, left: float, moved: float) -> bool:
+    """Whether what the last increments leave of places and states, and of velocities, is little;
+    mu moves velocities alone.
+    """
+    share, least = SHARE * P.settings.error, LEAST * reach
+    speed = scale(P, H, P.sizes.n, 2 * P.sizes.n)
+    if left > max(share * min(reach, h * speed), least):
+        return False
+    return moved <= max(share * speed, least / h)
 
 
 @native
@@ -206,9 +222,27 @@ def guess(P: Problem, S: Forward, H: Reals, h: float, again: bool) -> None:
         for stage in range(3):
             between(P, old, H, w, 1.0 + P.tableau[NODE + stage] * h / S.h, S.y[stage * w :])
         copy(H[w:], S.y, 3 * w)
+        continue_z(P, S, H, h)
     else:
         for stage in range(3):
             copy(H[(1 + stage) * w :], H, w)
+
+
+@native
+def continue_z(P: Problem, S: Forward, H: Reals, h: float) -> None:
+    """Multipliers and variables of the stages on the parabola through those of the last step; mu
+    as it was, which is nothing but error.
+    """
+    e, Z = z_width(P), H[ROWS * S.width :]
+    a, b = P.tableau[NODE], P.tableau[NODE + 1]
+    x, y, z = 1.0 + a * h / S.h, 1.0 + b * h / S.h, 1.0 + h / S.h
+    for k in range(P.sizes.m + P.sizes.nv):
+        first, second, third = Z[k], Z[e + k], Z[2 * e + k]
+        slope = (third - second) / (1.0 - b)
+        bend = (slope - (second - first) / (b - a)) / (1.0 - a)
+        Z[k] = third + (x - 1.0) * (slope + (x - b) * bend)
+        Z[e + k] = third + (y - 1.0) * (slope + (y - b) * bend)
+        Z[2 * e + k] = third + (z - 1.0) * (slope + (z - b) * bend)
 
 
 @native
