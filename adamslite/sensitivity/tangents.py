@@ -11,7 +11,8 @@ Kernels give those of loads, constraints and equations
 from __future__ import annotations
 
 from adamslite.integrators.contract import SIGNALS, STATE_ORIGIN, Problem
-from adamslite.integrators.motion_equations import PART, rotated_inertia
+from adamslite.integrators.linalg.norms import largest_of
+from adamslite.integrators.motion_equations import PART, only_points, put_vectors, rotated_inertia
 from adamslite.kernels.code.workspace import HEAD
 from adamslite.native.translate import Reals, call_address, native
 from adamslite.sensitivity.contract import Tangents
@@ -32,9 +33,13 @@ def put_direction(
     velocities, states), accelerations, multipliers and variables, rates of states, the time.
     """
     n, ns, first, W, d = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv, P.W, D.dW
-    clear(d, P.W.size)
+    clear(d, P.sizes.n_head)
     d[0] = time
-    for b in range(P.sizes.nb):
+    if only_points(P):
+        put_vectors(y, d[P.sizes.n_head :], P.sizes.nb)
+        put_vectors(y[n:], d[P.sizes.n_head + 3 :], P.sizes.nb)
+        put_vectors(a, d[P.sizes.n_head + 6 :], P.sizes.nb)
+    for b in range(0 if only_points(P) else P.sizes.nb):
         i, o = P.body[b].first, P.body[b].at
         for k in range(3):
             d[o + k], d[o + 3 + k], d[o + 6 + k] = y[i + k], y[n + i + k], a[i + k]
@@ -99,8 +104,7 @@ def note_plane(P: Problem, D: Tangents, number: int, F: Reals) -> None:
         return
     for k in range(P.held.size):
         D.out[number] = max(D.out[number], abs(F[P.held[k]]))
-    for k in range(P.sizes.nz):
-        D.top[number] = max(D.top[number], abs(F[k]))
+    D.top[number] = max(D.top[number], largest_of(F, P.sizes.nz))
 
 
 @native
@@ -188,6 +192,8 @@ def turned_inertia(R: Reals, dR: Reals, work: Reals) -> None:
 def inertia_by_number(P: Problem, D: Tangents, number: int, b: int) -> None:
     """Add R dI R^T to dJ."""
     W, o, tensor = P.W, P.body[b].at, D.inertia[9 * (number * P.sizes.nb + b) :]
+    if largest_of(tensor, 9) == 0.0:
+        return
     for r in range(3):
         for c in range(3):
             total = 0.0
