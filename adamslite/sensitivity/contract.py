@@ -78,6 +78,7 @@ class Forward(Record):
     floor                (np,) increments of places that are round-off
     age, factored        steps since matrices were made; the step, or the cu, that they are for
     exact                whether every step has a matrix of its own
+    inverted             whether the matrix in place is the inverse
     limit, slope         what iterations may leave, as a share of sensitivities; (2 np,) rates of
                          first and of further iterations over the squared age of a matrix
     matrices             how many were made
@@ -111,6 +112,7 @@ class Forward(Record):
     age: int
     factored: float
     exact: bool
+    inverted: bool
     limit: float
     slope: Reals
     matrices: int

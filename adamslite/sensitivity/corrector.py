@@ -28,6 +28,7 @@ from adamslite.integrators.bdf.state import tests_velocities
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.implicit.formulation import equations_kept, is_stabilised
 from adamslite.integrators.linalg.blocks import factor, solve
+from adamslite.integrators.linalg.inverse import invert_small, is_small, times_small_inverse
 from adamslite.integrators.linalg.plan import TINY, Plan
 from adamslite.integrators.motion_equations import jacobian, project_on_constraints, spread
 from adamslite.integrators.newton import add_mixed_product
@@ -72,6 +73,10 @@ def renewed(P: Problem, L: Plan, S: Forward, cu: float) -> bool:
         S.slope[k] = 1.0
     S.age, S.extra, S.spare, S.first, S.factored = 0, 0, 0, REMEMBERED * S.first, cu
     S.matrices += 1
+    S.inverted = is_small(L) and not S.exact
+    if S.inverted:
+        put_matrix(P, cu)
+        return invert_small(L, P.LV, P.pivots)
     return matrix(P, L, cu)
 
 
@@ -96,7 +101,10 @@ def corrected(
     for turn in range(MOST):
         put_direction(P, D, y, S.a, S.z, S.sd, 0.0)
         tangent(P, D, number, equations_kept(P), P.F)
-        solve(L, P.LV, P.pivots, P.F, P.x, P.work)
+        if S.inverted:
+            times_small_inverse(L, P.LV, P.pivots, P.F, P.x, P.work)
+        else:
+            solve(L, P.LV, P.pivots, P.F, P.x, P.work)
         size = apply(P, S, cu)
         copy(P.x, y[P.sizes.n :], P.sizes.n)
         motion(P, S, cu)
@@ -262,6 +270,13 @@ def farthest_apart(x: Reals, y: Reals, count: int) -> float:
 @native
 def matrix(P: Problem, L: Plan, cu: float) -> bool:
     """Factor the derivative of the equations by the increments at the workspace's state."""
+    put_matrix(P, cu)
+    return factor(L, P.LV, P.pivots, P.work)
+
+
+@native
+def put_matrix(P: Problem, cu: float) -> None:
+    """The derivative itself."""
     c, phases = P.coef, equations_kept(P)
     c[0], c[1], c[2], c[3], c[4] = 1.0, cu, cu * cu, 1.0, cu
     jacobian(P, phases, c, P.J)
@@ -273,7 +288,6 @@ def matrix(P: Problem, L: Plan, cu: float) -> bool:
         for k in range(0, P.mixed.size, 8):
             add_mixed_product(P, k, P.J, P.D, P.J)
     spread(P, P.LV)
-    return factor(L, P.LV, P.pivots, P.work)
 
 
 @native
