@@ -42,7 +42,7 @@ from adamslite.sensitivity.tangents import clear, put_direction, tangent
 # many iterations are enough.
 KEEP_RATIO, KEEP_STEPS, MOST = 0.02, 20, 5
 # A matrix takes as long as so many iterations.
-DEAR = 4.0
+DEAR = 7.0
 # Of the iterations in the first step with an old matrix so much is remembered with each new one.
 REMEMBERED = 0.9
 # A worse rate of convergence requires a new matrix.
