@@ -34,18 +34,21 @@ import numpy as np
 from adamslite.errors import UsageError
 from adamslite.integrators.radau.coefficients import INVERSE, NODE
 from adamslite.integrators.radau.history import Y_ROWS, Z_ROWS
+from adamslite.sensitivity import taped
 from adamslite.sensitivity.adjoint_columns import Seed
 from adamslite.sensitivity.adjoint_formula import Row
 from adamslite.sensitivity.adjoint_sweep import Sweep
 from adamslite.sensitivity.adjoint_tape import SINGULAR
 from adamslite.sensitivity.adjoint_weights import Slopes
+from adamslite.sensitivity.stages import SHARE
 from adamslite.sensitivity.transposed import BLOCKS, FACTOR_STAGES, LAY, PUT_STAGE, SOLVE_STAGES
 
 if TYPE_CHECKING:
     from adamslite.equations.system import System
 
-# Increments stop where the next one would be this share of what they have added up to; those that
-# shrink no further than STALLED are round-off below ROUND_OFF; and after so many.
+# Increments stop where the next one would be this share of what they have added up to, or what
+# those of forward sensitivities leave; those that shrink no further than STALLED are round-off
+# below ROUND_OFF; and after so many.
 ENOUGH, STALLED, ROUND_OFF, MOST = 1e-10, 0.5, 1e-7, 40
 STAGES = range(3)
 
@@ -56,6 +59,7 @@ class StageSweep(Sweep):
     def __init__(self, system: System) -> None:
         super().__init__(system)
         self.at_stages = np.zeros((4, self.w))
+        self.enough = ENOUGH if taped.EXACT else max(ENOUGH, SHARE * system.settings.error)
         self.inverse = system.tableau[INVERSE : INVERSE + 9].reshape(3, 3)
         self.formula = np.linalg.inv(self.inverse)
         self.nodes = system.tableau[NODE : NODE + 2]
@@ -151,7 +155,8 @@ class StageSweep(Sweep):
             change[:, dead] = 0.0
             total += change
             sl, last, size = self._more(states, change, found), size, _share(change, total, n)
-            if size * min(1.0, size / last) <= ENOUGH or STALLED * last < size < ROUND_OFF:
+            if size * min(1.0, size / last) <= self.enough or STALLED * last < size < ROUND_OFF:
+                self.weights.count_inertia(total, states)
                 return found
             r += self._to_unknowns(states, w, sl.u + w.T @ sl.a)
             r[:, n:end] += sl.z[:, : self.first]

@@ -135,10 +135,13 @@ class Weights:
         self._run(phases, weights)
         slopes = self._collected()
         self._inertia(weights, slopes, self.system.W)
+        self.count_inertia(weights, self.system.W)
         return slopes
 
     def of_stages(self, phases: int, states: np.ndarray, weights: np.ndarray) -> Slopes:
-        """The same at several workspaces (3, W.size), of weights (3, nz): slopes (3, .)."""
+        """The same at several workspaces (3, W.size), of weights (3, nz): slopes (3, .); without
+        what :meth:`count_inertia` counts.
+        """
         G = np.zeros((len(states), self.slopes_of_w.size))
         for state, nu, target in zip(states, weights, G, strict=True):
             self._run(phases, nu, state, target)
@@ -212,20 +215,39 @@ class Weights:
 
     def _inertia(self, weights: np.ndarray, slopes: Slopes, W: np.ndarray) -> None:
         """M (a - gravity), and what turns; with a leading axis for several states ``W``."""
+        slopes.a += self.heavy * weights[..., : self.system.n]
+        if len(self.phi):
+            self._spin(weights, slopes, W)
+
+    def count_inertia(self, weights: np.ndarray, W: np.ndarray) -> None:
+        """Derivatives by masses, inertias and gravity, which are linear in the weights."""
         system = self.system
-        slopes.a += self.heavy * weights[..., : system.n]
         nu = weights.take(self.x, axis=-1)
         a = W.take(self.wx + ACCELERATION, axis=-1) - system.gravity
         self.numbers.mass += _stacked(nu * a).sum(axis=(0, 2))
         self.numbers.gravity -= system.mass @ _stacked(nu).sum(axis=0)
-        if len(self.phi):
-            self._spin(weights, slopes, W)
+        if not len(self.phi):
+            return
+        attitude, alpha, omega = self._attitude(W)
+        turn = weights.take(self.phi, axis=-1)
+        inside = [
+            _stacked(np.einsum("...bji,...bj->...bi", attitude, v))
+            for v in (turn, alpha, np.cross(turn, omega), omega)
+        ]
+        both = np.einsum("sbi,sbj->bij", inside[0], inside[1])
+        both += np.einsum("sbi,sbj->bij", inside[2], inside[3])
+        self.numbers.inertia[self.parts] += both
+
+    def _attitude(self, W: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """R (., 3, 3), alpha and w (., 3) of parts."""
+        alpha, omega = (W.take(self.wphi + at, axis=-1) for at in (ALPHA, OMEGA))
+        attitude = W.take(self.wphi[:, :1] + ATTITUDE + np.arange(9), axis=-1)
+        return attitude.reshape(*omega.shape[:-1], 3, 3), alpha, omega
 
     def _spin(self, weights: np.ndarray, slopes: Slopes, W: np.ndarray) -> None:
         """J al + w x J w."""
-        alpha, omega = (W.take(self.wphi + at, axis=-1) for at in (ALPHA, OMEGA))
-        turn, places = weights.take(self.phi, axis=-1), self.wphi[:, :1] + ATTITUDE + np.arange(9)
-        attitude = W.take(places, axis=-1).reshape(*turn.shape[:-1], 3, 3)
+        attitude, alpha, omega = self._attitude(W)
+        turn = weights.take(self.phi, axis=-1)
         own = self.system.inertia.reshape(-1, 3, 3)[self.parts]
         J = attitude @ own @ attitude.swapaxes(-1, -2)
 
@@ -240,10 +262,3 @@ class Weights:
         slopes.q[..., self.phi] += (
             cross(times(alpha), turn) + cross(hn, alpha) + cross(h, spun) + cross(hs, omega)
         )
-        inside = [
-            _stacked(np.einsum("...bji,...bj->...bi", attitude, v))
-            for v in (turn, alpha, spun, omega)
-        ]
-        both = np.einsum("sbi,sbj->bij", inside[0], inside[1])
-        both += np.einsum("sbi,sbj->bij", inside[2], inside[3])
-        self.numbers.inertia[self.parts] += both

@@ -145,6 +145,9 @@ class Taped(Session):
             self.follow(system, settings.method)
             self.followed = True
         system.tape.width = 0
+        if system.tape.data.nbytes <= FIRST_BYTES:
+            _spare[:] = [system.tape.data]
+        system.tape.data = np.zeros(1)
         return outcome
 
 
@@ -172,11 +175,21 @@ def lay_tape(system: System, rows: int, method: str) -> None:
     tape.rows, tape.full = 0, False
     tape.kept, tape.further, tape.more = _kept(system, method)
     tape.width = _width(system, method)
-    tape.data = np.zeros(rows * tape.width)
+    tape.data = _room(rows * tape.width)
     for name in ("previous", "previous_before"):
         setattr(audit, name, np.zeros(system.W.size))
     audit.on = True
     system.run(AUDIT)
+
+
+def _room(size: int) -> np.ndarray:
+    """Room for a tape: what one of this process has left, whose pages are there already."""
+    spare = _spare.pop() if _spare else np.zeros(0)
+    return spare if spare.size >= size else np.zeros(size)
+
+
+#: The room of the last tape: what the system gives anew costs as much as half of a run.
+_spare: list[np.ndarray] = []
 
 
 def _width(system: System, method: str) -> int:
