@@ -297,6 +297,18 @@ def test_a_tape_that_is_too_short_is_laid_again(monkeypatch: pytest.MonkeyPatch)
         al.gradient(SPRING, ["POINT_MASS/2.x@end"], **run)
 
 
+def test_the_room_of_a_tape_serves_again() -> None:
+    """Runs of other lengths and methods between two of one leave no trace in it."""
+    of, by = ["POINT_MASS/2.x@end"], ["SPRINGDAMPER/1.K"]
+    first = al.gradient(SPRING, of, by, end=1.0, steps=10, error=1e-7)
+    rooms = [id(each) for each in taped._spare]
+    al.gradient(SPRING, of, by, end=2.0, steps=10, error=1e-9, integrator="RADAU")
+    again = al.gradient(SPRING, of, by, end=1.0, steps=10, error=1e-7)
+    assert len(rooms) == 1
+    assert (again.gradient == first.gradient).all()
+    assert (again.values == first.values).all()
+
+
 def test_an_equilibrium_before_moves_with_every_number() -> None:
     """At rest the mass is where the spring is as long as it is unloaded, whatever was known of the
     deck before.

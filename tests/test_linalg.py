@@ -10,7 +10,7 @@ import pytest
 from scenes import chain, links, system
 
 from adamslite.equations.elimination_order import DENSE, analyse
-from adamslite.integrators.linalg import blocks
+from adamslite.integrators.linalg import blocks, inverse
 
 PATTERNS = {
     "chain": [(k, k + 1) for k in range(11)],
@@ -104,6 +104,29 @@ def test_small_systems_are_dense_and_pivoted():
     np.testing.assert_allclose(
         solved(full, widths, pairs, b), np.linalg.solve(full, b), rtol=1e-8, atol=1e-10
     )
+
+
+def test_the_inverse_of_a_small_matrix():
+    """With zeros on the diagonal; unknowns in another order, and one left out, whose row is 0."""
+    some, size = np.random.default_rng(8), 7
+    full = some.standard_normal((size, size))
+    np.fill_diagonal(full, 0.0)
+    place = np.array([3, 0, size, 6, 5, 1, 2, 4])  # the third is left out
+    plan = SimpleNamespace(size=np.array([size]), place=place, fronts=np.zeros(0))
+    A, pivots = np.append(full.ravel(), 0.0), np.zeros(size + 1, dtype=np.int64)
+    b = some.standard_normal(size + 1)
+    b[2] = 0.0
+    x, rooms = b.copy(), [np.zeros(size + 1) for _ in range(2)]
+    assert inverse.is_small(plan)
+    assert inverse.invert_small(plan, A, pivots)
+    inverse.times_small_inverse(plan, A, pivots, x, *rooms)
+    live = np.delete(np.arange(size + 1), 2)
+    expected = np.linalg.solve(full[np.ix_(place[live], place[live])], b[live])
+    np.testing.assert_allclose(x[live], expected, rtol=1e-10)
+    assert x[2] == 0.0
+    assert not inverse.invert_small(plan, np.zeros(size * size + 1), pivots)
+    wide = SimpleNamespace(size=np.array([inverse.SMALL + 1]), fronts=np.zeros(0))
+    assert not inverse.is_small(wide)
 
 
 @pytest.mark.parametrize(("coupled", "nodes"), [(1, 41), (40, 1)])

@@ -100,6 +100,28 @@ def test_mistakes_are_told(by, of, options, words):
         al.sensitivities(SPRING, [by], [of], **RUN, **options)
 
 
+HHT = SPRING.replace("END\n", "INTEGRATOR/HHT\nEND\n")
+
+
+def test_a_deck_whose_method_has_no_derivatives_runs_by_another_and_says_so(capsys, tmp_path):
+    """What `cable` writes asks for HHT."""
+    of, by = ["POINT_MASS/2.x@end"], ["SPRINGDAMPER/1.K"]
+    expected = al.sensitivities(SPRING, by, of, integrator="GSTIFF", **RUN)
+    for found in (al.sensitivities(HHT, by, of, **RUN), al.gradient(HHT, of, by, **RUN)):
+        assert found.gradient == pytest.approx(expected.gradient, rel=1e-6)
+        assert found.notes == {
+            "integrator": "HHT, which the deck asks for, has no derivatives: values and "
+            "derivatives are those of a run by GSTIFF"
+        }
+    assert al.sensitivities(HHT, by, of, integrator="RADAU", **RUN).notes == {}
+    with pytest.raises(UsageError, match="GSTIFF and RADAU; HHT is none of them: ask for one"):
+        al.sensitivities(HHT, by, of, integrator="HHT", **RUN)
+    (tmp_path / "hht.adm").write_text(HHT)
+    words = ["sens", str(tmp_path / "hht.adm"), "--by", *by, "--of", *of, "--end", "3"]
+    assert main([*words, "--steps", "30"]) == 0
+    assert "integrator: HHT, which the deck asks for" in capsys.readouterr().err
+
+
 ROPE = """ten masses on a stiff rope, of which one starts a little off
 PART/1, GROUND
 MARKER/1, PART=1

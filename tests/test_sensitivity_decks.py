@@ -250,6 +250,28 @@ def test_matrices_that_are_kept_cost_no_digits(name, by, run, monkeypatch):
     assert made[0].matrices <= 0.5 * made[1].matrices
 
 
+@pytest.mark.filterwarnings("ignore::adamslite.DeckWarning")
+@pytest.mark.parametrize("tolerance", [1e-5, 1e-8])
+@pytest.mark.parametrize(
+    ("name", "by", "run"),
+    [
+        ("four-bar", "JOINT/1.IC[1]", {"end": 0.5, "steps": 50}),
+        ("slider-crank", "MARKER/21.QP[0]", {"end": 0.05, "steps": 25}),
+        ("heavy-top", "PART/2.IP[2]", {"end": 0.2, "steps": 10}),
+        ("car-axis", "POINT_MASS/3.QG[1]", {"end": 0.5, "steps": 25}),
+    ],
+)
+def test_stages_leave_a_share_of_error(name, by, run, tolerance, monkeypatch):
+    """Systems of stages solved as far as ERROR asks for, against round-off: multipliers of velocity
+    rows move velocities alone, and grow from step to step where only places are looked at.
+    """
+    deck, method = al.read(DECKS / name / f"{name}.adm"), {"integrator": "RADAU"}
+    near = al.sensitivities(deck, [by], ["*.?"], error=tolerance, **method, **run)
+    monkeypatch.setattr(taped, "EXACT", True)
+    exact = al.sensitivities(deck, [by], ["*.?"], error=tolerance, **method, **run)
+    assert error(near.curves, exact.curves) <= 3.0 * tolerance
+
+
 def test_a_bounce_against_differences():
     """Height, mass, stiffness, damping and the place of the floor, behind two bounces."""
     names = ["POINT_MASS/2.QG[1]", "POINT_MASS/2.MASS", *(f"VFORCE/1.FY[{k}]" for k in (0, 1, 3))]

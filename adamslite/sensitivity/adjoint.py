@@ -79,7 +79,8 @@ def gradient(
     )  # fmt: skip
     return Sensitivities(
         tuple(n.name for n in named), np.array([n.value for n in named]), results,
-        np.zeros((len(named), 0, 0)), made["measures"], made["values"], made["gradient"], {},
+        np.zeros((len(named), 0, 0)), made["measures"], made["values"], made["gradient"],
+        session.notes,
     )  # fmt: skip
 
 

@@ -303,6 +303,7 @@ def _gathered(
     notes = {n.name: COARSE.format(error=error) for n, error in off if error > DOUBTFUL}
     notes |= dict.fromkeys(made["still"], UNUSED)
     notes |= {"events": GRAZED} if made["grazed"] else {}
+    notes |= session.notes
     return Sensitivities(
         tuple(n.name for n in named), np.array([n.value for n in named]), results, curves,
         tuple(map(str, measures)), np.array([m.of(time, results[m.channel]) for m in measures]),

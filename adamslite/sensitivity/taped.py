@@ -34,7 +34,14 @@ FORMULAS = {
     "GSTIFF": "adamslite.sensitivity.differences.by_differences",
     "RADAU": "adamslite.sensitivity.stages.by_stages",
 }
-WITHOUT = "derivatives are worked out along the steps of {known}; {method} is none of them"
+WITHOUT = (
+    "derivatives are worked out along the steps of {known}; {method} is none of them: ask for one "
+    "of these, or for none"
+)
+INSTEAD = (
+    "{method}, which the deck asks for, has no derivatives: values and derivatives are those of a "
+    "run by {taken}"
+)
 SEVERAL = (
     "derivatives are those of one dynamic analysis: here a second one follows (several SIMULATE, "
     "or a SENSOR from which the analysis continues)"
@@ -91,19 +98,32 @@ class Probe(Session):
         raise Ready(Snapshot.of(system))
 
     def _take(self, choice: MethodChoice) -> None:
-        super()._take(allowed(choice))
+        super()._take(allowed(choice, "method" in self.flags))
 
 
 class Taped(Session):
     """Follows the tape of a run with ``follow(system, method)``; ``planar``: in the plane of the
-    motion, if it has one, where that finds out what leaves it.
+    motion, if it has one, where that finds out what leaves it; ``refused``: the method of the deck
+    that has no derivatives.
     """
 
     follow: Callable[[System, str], None]
     followed = planar = False
+    refused = ""
 
     def _take(self, choice: MethodChoice) -> None:
-        super()._take(allowed(choice))
+        taken = allowed(choice, "method" in self.flags)
+        if not choice.reason and taken.settings.method != choice.settings.method:
+            self.refused = choice.settings.method
+        super()._take(taken)
+
+    @property
+    def notes(self) -> dict[str, str]:
+        """A word about another method than that of the deck."""
+        taken = self.chosen.settings.method
+        if not self.refused:
+            return {}
+        return {"integrator": INSTEAD.format(method=self.refused, taken=taken)}
 
     def _integrated(
         self, system: System, times: np.ndarray, apart: float, wanted: np.ndarray
@@ -151,22 +171,22 @@ class Taped(Session):
         return outcome
 
 
-def allowed(choice: MethodChoice) -> MethodChoice:
-    """The method, which AUTO has chosen only where derivatives can follow it.
+def allowed(choice: MethodChoice, asked: bool) -> MethodChoice:
+    """The method, which AUTO or the deck has chosen only where derivatives can follow it.
 
     Raises
     ------
     UsageError
-        When another was asked for.
+        When another was ``asked`` for beside the deck.
     """
     from dataclasses import replace
 
     method = choice.settings.method
     if method in FORMULAS:
         return replace(choice, instead="")
-    if choice.reason:
+    if choice.reason or not asked:
         return MethodChoice(replace(choice.settings, method=next(iter(FORMULAS))), "derivatives")
-    raise UsageError(WITHOUT.format(known=", ".join(FORMULAS), method=method))
+    raise UsageError(WITHOUT.format(known=" and ".join(FORMULAS), method=method))
 
 
 def lay_tape(system: System, rows: int, method: str) -> None:
@@ -184,7 +204,10 @@ def lay_tape(system: System, rows: int, method: str) -> None:
 
 def _room(size: int) -> np.ndarray:
     """Room for a tape: what one of this process has left, whose pages are there already."""
-    spare = _spare.pop() if _spare else np.zeros(0)
+    try:
+        spare = _spare.pop()  # another thread finds none
+    except IndexError:
+        return np.zeros(size)
     return spare if spare.size >= size else np.zeros(size)
 
 
