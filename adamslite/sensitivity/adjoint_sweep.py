@@ -119,11 +119,13 @@ class Sweep(Taken):
 
     def _step(self, k: int, row: Row) -> None:
         """One step."""
-        way = way_of(row.order, row.h / row.h_before)
+        way, end = way_of(row.order, row.h / row.h_before), row.order + 3
+        bar = self.bar[:end]  # no further difference is read or written
         self._put(k)
-        psi, y = self._corrector(row, way.own @ self.bar)
-        self.bar = way.past @ self.bar
-        self.bar[: row.order + 1] += way.rate[:, None] * psi + way.level[:, None] * y
+        psi, y = self._corrector(row, way.own[:end] @ bar)
+        bar[:] = way.past[:end, :end] @ bar
+        bar[: row.order + 1] += way.rate[:, None] * psi
+        bar[: row.order + 1] += way.level[:, None] * y
 
     def _corrector(self, row: Row, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Weights of psi, and of y_p, from those of y.
