@@ -10,7 +10,8 @@ import pytest
 from scenes import chain, links, system
 
 from adamslite.equations.elimination_order import DENSE, analyse
-from adamslite.integrators.linalg import blocks, inverse
+from adamslite.integrators.linalg import blocks
+from adamslite.sensitivity import inverse
 
 PATTERNS = {
     "chain": [(k, k + 1) for k in range(11)],

@@ -28,13 +28,13 @@ from adamslite.integrators.bdf.state import tests_velocities
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.implicit.formulation import equations_kept, is_stabilised
 from adamslite.integrators.linalg.blocks import factor, solve
-from adamslite.integrators.linalg.inverse import invert_small, is_small, times_small_inverse
 from adamslite.integrators.linalg.plan import TINY, Plan
 from adamslite.integrators.motion_equations import jacobian, project_on_constraints, spread
 from adamslite.integrators.newton import add_mixed_product
 from adamslite.kernels.code.workspace import OMEGA
 from adamslite.native.translate import Reals, copy, native
 from adamslite.sensitivity.contract import Forward, Tangents
+from adamslite.sensitivity.inverse import invert_small, is_small, times_small_inverse
 from adamslite.sensitivity.rates import spun
 from adamslite.sensitivity.tangents import clear, put_direction, tangent
 
