@@ -9,6 +9,7 @@ from collections.abc import Callable
 from html.parser import HTMLParser
 from io import BytesIO
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from xml.etree import ElementTree
 
 import pytest
@@ -77,8 +78,22 @@ def checked(results: al.Results) -> str:
     return al.html(al.check(results.source.deck))
 
 
+def sweep(results: al.Results) -> str:
+    """A page of some runs."""
+    assert results.source is not None
+    deck, numbers = results.source.read()[0], ["SPRINGDAMPER/1.K=8,9"]
+    runs = al.sweep(
+        deck, numbers, outputs=["REQUEST/*"], measures=["max REQUEST/1.F2"], end=0.1, steps=2
+    )
+    with TemporaryDirectory() as folder:
+        path = Path(folder, "a.html")
+        al.view(runs, path)
+        return path.read_text(encoding="utf-8")
+
+
 MAKERS: dict[str, Callable[[al.Results], str]] = {
     "page": page, "notebook": al.html, "check": checked,
+    "sweep": sweep,
 }  # fmt: skip
 
 

@@ -229,3 +229,12 @@ def test_the_page_of_a_message_in_a_comment() -> None:
     text = DECK.replace("IP=1,1,1", "IP=1,1,1 ! adamslite: ignore no-inertia")
     found = hover(Document("x.adm", "deck").update(text), text.index("no-inertia") + 3)
     assert found and found[0].startswith("## `no-inertia`")
+
+
+@pytest.mark.parametrize("sent", [b"[" * 200_000, b"{", b"\xff\xfe", b'{"jsonrpc": 7}'])
+def test_what_is_no_message_is_reported_without_a_traceback(sent: bytes) -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "adamslite", "lsp"], capture_output=True, check=False,
+        input=b"Content-Length: %d\r\n\r\n%s" % (len(sent), sent),
+    )  # fmt: skip
+    assert done.returncode == 0 and b"Traceback" not in done.stderr, done.stderr

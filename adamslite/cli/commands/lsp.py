@@ -5,6 +5,8 @@ VS Code needs for that (docs/how-to/editor.md). It needs the extra [lsp].
 """
 
 import argparse
+import logging
+from typing import Any
 
 from adamslite.cli.commands.codes import DONE
 
@@ -26,5 +28,17 @@ def run(args: argparse.Namespace) -> int:
         ) from None
     from adamslite.editing.handlers import start
 
+    faults = logging.StreamHandler()
+    faults.setFormatter(_OneLine("adamslite: %(message)s"))
+    logging.getLogger("pygls").addHandler(faults)
+    logging.getLogger("pygls").propagate = False
     start()
     return DONE
+
+
+class _OneLine(logging.Formatter):
+    """What an editor has sent that is no message is reported in a line, not by a traceback."""
+
+    def formatException(self, ei: Any) -> str:  # noqa: N802 - the name of the library
+        last = str(ei[1]).strip().splitlines()[-1:]  # it may quote a traceback of its own
+        return f"  {ei[0].__name__}: {''.join(last)}"

@@ -119,7 +119,8 @@ def _elements(data: bytes) -> Iterator[tuple[str, Element]]:
 
     What is complete is taken out of what it lies in, except components.
     """
-    parser, inside = XMLPullParser(("start", "end", "comment")), list[Element]()
+    parser: XMLPullParser[Element] = XMLPullParser(("start", "end", "comment"))
+    inside: list[Element] = []
     for first in range(0, len(data) + 1, CHUNK):
         parser.feed(data[first : first + CHUNK])
         events = cast("Iterator[tuple[str, Element]]", parser.read_events())
