@@ -6,8 +6,6 @@ VS Code needs for that (docs/how-to/editor.md). It needs the extra [lsp].
 
 import argparse
 import logging
-from typing import Any
-
 from adamslite.cli.commands.codes import DONE
 
 
@@ -29,7 +27,7 @@ def run(args: argparse.Namespace) -> int:
     from adamslite.editing.handlers import start
 
     faults = logging.StreamHandler()
-    faults.setFormatter(_OneLine("adamslite: %(message)s"))
+    faults.setFormatter(_OneLine())
     logging.getLogger("pygls").addHandler(faults)
     logging.getLogger("pygls").propagate = False
     start()
@@ -37,8 +35,13 @@ def run(args: argparse.Namespace) -> int:
 
 
 class _OneLine(logging.Formatter):
-    """What an editor has sent that is no message is reported in a line, not by a traceback."""
+    """What an editor has sent that is no message is reported in a line, not by a traceback, which
+    may be in the text of the report, too.
+    """
 
-    def formatException(self, ei: Any) -> str:  # noqa: N802 - the name of the library
-        last = str(ei[1]).strip().splitlines()[-1:]  # it may quote a traceback of its own
-        return f"  {ei[0].__name__}: {''.join(last)}"
+    def format(self, record: logging.LogRecord) -> str:
+        lines = record.getMessage().strip().splitlines()
+        if record.exc_info:
+            lines += str(record.exc_info[1]).strip().splitlines()
+        last = f": {lines[-1].strip()}" if len(lines) > 1 else ""
+        return f"adamslite: {''.join(lines[:1])}{last}"
