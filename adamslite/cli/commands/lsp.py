@@ -6,6 +6,7 @@ VS Code needs for that (docs/how-to/editor.md). It needs the extra [lsp].
 
 import argparse
 import logging
+
 from adamslite.cli.commands.codes import DONE
 
 
