@@ -82,13 +82,6 @@ def take_product(A: Reals, x: Reals, count: int, y: Reals) -> None:
 
 
 @native
-def take_entry(A: Reals, a: int, x: Reals, p: int, y: Reals, q: int) -> None:
-    """y[q] -= A[a] x[p]."""
-    y[2 * q] -= A[2 * a] * x[2 * p] - A[2 * a + 1] * x[2 * p + 1]
-    y[2 * q + 1] -= A[2 * a] * x[2 * p + 1] + A[2 * a + 1] * x[2 * p]
-
-
-@native
 def invert_complex(A: Reals, o: int, s: int, pivots: Ints, po: int, work: Reals) -> bool:
     """Replace the s x s block at ``o`` with its inverse."""
     if not lu_complex(A, o, s, pivots, po):

@@ -5,7 +5,7 @@ Entry k of an array is (A[2k], A[2k + 1]).  The diagonal of U is left inverted.
 
 from __future__ import annotations
 
-from adamslite.integrators.linalg.complex_blocks import subtract_product, take_entry
+from adamslite.integrators.linalg.complex_blocks import subtract_product, take_product
 from adamslite.integrators.linalg.fronts import add_update
 from adamslite.integrators.linalg.plan import SOLVE, TINY, Front, Plan
 from adamslite.native.translate import Ints, Reals, native
@@ -123,12 +123,10 @@ def forward(L: Plan, F: Front, A: Reals, pivots: Ints, x: Reals) -> None:
         a, b = 2 * (own + k), 2 * (own + pivots[own + k])
         x[a], x[b] = x[b], x[a]
         x[a + 1], x[b + 1] = x[b + 1], x[a + 1]
-        for j in range(k):
-            take_entry(A, F.panel + k * t + j, x, own + j, x, own + k)
+        take_product(A[2 * (F.panel + k * t) :], x[2 * own :], k, x[a:])
     for e in range(F.first_run, F.last_run):
         for i in range(L.runs[e].at, L.runs[e].at + L.runs[e].count):
-            for j in range(s):
-                take_entry(A, row + j, x, own + j, x, i)
+            take_product(A[2 * row :], x[2 * own :], s, x[2 * i :])
             row += s
 
 
@@ -142,10 +140,8 @@ def backward(L: Plan, F: Front, A: Reals, x: Reals, rest: Reals) -> None:
             at += 2
     for k in range(s - 1, -1, -1):
         row = F.panel + k * t
-        for j in range(k + 1, s):
-            take_entry(A, row + j, x, own + j, x, own + k)
-        for j in range(r):
-            take_entry(A, row + s + j, rest, j, x, own + k)
         at, to = 2 * (row + k), 2 * (own + k)
+        take_product(A[at + 2 :], x[to + 2 :], s - k - 1, x[to:])
+        take_product(A[2 * (row + s) :], rest, r, x[to:])
         p, q = x[to], x[to + 1]
         x[to], x[to + 1] = A[at] * p - A[at + 1] * q, A[at] * q + A[at + 1] * p
