@@ -30,6 +30,7 @@ from adamslite.results.formats import register_format
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 
+SEPARATED = "; commas separate columns, and decimals have points"
 #: A name with its unit behind it.
 UNIT = re.compile(r"(.*\S)\s+\[([^\[\]]*)\]")
 
@@ -136,7 +137,10 @@ def _header(line: str, place: str) -> tuple[tuple[str, ...], dict[str, str]]:
     pairs = [(m[1], m[2].strip()) if m else (w, "") for w, m in zip(words, found, strict=True)]
     names = tuple(name for name, _ in pairs)
     if names[0].casefold() != "time":
-        raise FormatError(f"{place}: the header row must start with 'time', not '{names[0]}'")
+        apart = SEPARATED if len(names) == 1 and any(mark in line for mark in ";\t") else ""
+        raise FormatError(
+            f"{place}: the header row must start with 'time', not '{names[0]}'{apart}"
+        )
     seen = set()
     for name in map(str.casefold, names):
         if name in seen:
