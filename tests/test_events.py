@@ -9,6 +9,9 @@ import pytest
 from pytest import approx
 from scenes import DAMPER, GROUND, PENDULUM, TEETER, carriage, done, options, run, system
 
+from adamslite.analyses.clock import changes
+from adamslite.analyses.clock import stops as stops_module
+from adamslite.analyses.clock.clock import Clock
 from adamslite.analyses.clock.stops import stops
 from adamslite.results.outcomes import Outcome
 
@@ -27,6 +30,15 @@ def stops_of(force: str, end: float, steps: int) -> list[float]:
 
 
 # ---- edges in time -------------------------------------------------------------------------------
+
+
+def test_changes_that_are_too_many_are_reported_and_not_all_found(monkeypatch) -> None:
+    """A square wave changes 20 times a second; searched for a while, it is given up."""
+    monkeypatch.setattr(changes, "MOST", 64)
+    monkeypatch.setattr(stops_module, "MOST", 64)
+    run_of = system(moved_by("IF(MOD(TIME,0.1)-0.05: 1,-1,-1)"))
+    found, overfull = stops_module.edges(run_of, Clock(run_of.kernels), np.array([0.0, 1e3]))
+    assert len(found) < 2000 and {each.label for each in overfull} == {"VFORCE/1"}
 
 
 @pytest.mark.parametrize("error", ERRORS)
