@@ -128,15 +128,23 @@ class TestWhatWasLeftBehind:
 class TestGoingOn:
     @pytest.fixture
     def part(self, tmp_path: Path) -> Path:
-        """The file of a run that was killed."""
+        """The file of a run that was killed, with rows before its last state."""
         deck, output = written(tmp_path, LONG), tmp_path / "x.csv"
-        process = subprocess.Popen(
-            command(str(deck), "-o", str(output), *FLAGS), stderr=subprocess.PIPE, cwd=tmp_path
-        )
-        until_there_is_a_state(process, Path(f"{output}.part"))
-        process.kill()
-        process.communicate()
-        return Path(f"{output}.part")
+        part = Path(f"{output}.part")
+        for _ in range(20):
+            process = subprocess.Popen(
+                command(str(deck), "-o", str(output), *FLAGS), stderr=subprocess.PIPE, cwd=tmp_path
+            )
+            until_there_is_a_state(process, part)
+            process.kill()
+            process.communicate()
+            killed = PartFile.open(part)
+            rows = killed.state["stretches"]
+            killed.close()
+            if rows:
+                return part
+            part.unlink()  # killed before rows were made sure of
+        raise AssertionError("no row was kept")
 
     def test_a_deck_that_has_changed_is_refused(self, part: Path, capsys) -> None:
         part.with_name("deck.adm").write_text(LONG.replace("MASS=1", "MASS=2"))
