@@ -19,6 +19,7 @@ from statistics import median
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 from adamslite.caching import entries, folder
 from adamslite.resources import find
@@ -29,6 +30,9 @@ if TYPE_CHECKING:
 sys.path.append(str(find("decks") / "cables"))
 # Tests run side by side, one on a processor; numpy reads this when it is first imported.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+# Elapsed time is not compared with anything: a machine may be busy.
+settings.register_profile("busy", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("busy")
 
 #: Modules of tests in which no number is computed that a processor could round otherwise.
 TEXTUAL = {
