@@ -19,7 +19,10 @@ so that `adamslite --help` does not wait for numpy.
 
 import importlib
 import time
-from typing import Any
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:  # Ctrl-C would meet modules being imported before the command can answer it
+    from typing import Any
 
 __version__ = "0.1.0"
 
@@ -63,7 +66,7 @@ _HOME = {
 __all__ = ["__version__", *_HOME]
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> "Any":
     if name not in _HOME:
         raise AttributeError(f"module 'adamslite' has no attribute '{name}'")
     value = getattr(importlib.import_module(f"adamslite.{_HOME[name]}"), name)

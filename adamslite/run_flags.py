@@ -121,10 +121,13 @@ def add_run_flags(parser: argparse.ArgumentParser) -> None:
         "--confirm", action="store_true", default=None,
         help="run again with a smaller ERROR and with another method; report how many digits agree",
     )  # fmt: skip
-    limits = parser.add_argument_group(
-        "limits", "a run that reaches one ends, and keeps what it has"
-    )
-    limits.add_argument("--cpu-limit", type=positive, metavar="S", help="CPU of the run in seconds")
+    add_limit_flags(parser, "a run that reaches one ends, and keeps what it has", "the run")
+
+
+def add_limit_flags(parser: argparse.ArgumentParser, about: str, what: str) -> None:
+    """Declare what a command may spend, and ``about`` what happens where it has."""
+    limits = parser.add_argument_group("limits", about)
+    limits.add_argument("--cpu-limit", type=positive, metavar="S", help=f"CPU of {what} in seconds")
     limits.add_argument(
         "--max-steps", type=count, metavar="N",
         help="steps of integration; without, a run ends after 10000 steps below 1e-10 of it",

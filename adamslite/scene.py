@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import adamslite
 from adamslite.kept_scene import command_file_beside, find, keep, origin_of, tables_of
 from adamslite.language.diagnostics import DeckError, Diagnostic
+from adamslite.language.text import PIPED, STDIN, is_piped, piped
 from adamslite.progress import Progress
 
 if TYPE_CHECKING:  # numpy is not needed to check a deck
@@ -57,7 +58,7 @@ class Scene:
     @property
     def stem(self) -> str:
         """The first part of the names of files: what the commands say, else that of the deck."""
-        return self.commands.prefix or self.deck_path.stem
+        return self.commands.prefix or stem_of(self.deck_path)
 
     @property
     def title(self) -> str:
@@ -67,13 +68,19 @@ class Scene:
         return str(self.deck_path)
 
 
+def stem_of(deck_path: Path) -> str:
+    """The first part of the names of files of a deck."""
+    return "stdin" if str(deck_path) in (PIPED, STDIN) else deck_path.stem
+
+
 def load_scene(
     deck_path: Path,
     commands_path: Path | None = None,
     user: "User" = (),
     values: "Values" = (),
 ) -> Scene:
-    """Read and check a deck and its command file, by default the `.acf` of its name beside it.
+    """Read and check a deck and its command file, by default the `.acf` of its name beside it; a
+    deck called `-` is standard input.
 
     What an earlier run has kept of the same files is taken instead. `user` is what is bound to
     routines that are no part of them, `values` are numbers to put into the deck, as `read` takes
@@ -84,6 +91,12 @@ def load_scene(
     DeckError
         With everything that is wrong in the two files.
     """
+    if is_piped(deck_path):
+        deck, commands, warnings = read_together(piped(), commands_path, user, values)
+        return Scene(
+            deck=deck, commands=commands, warnings=warnings, deck_path=Path(STDIN),
+            commands_path=commands_path, beside=False,
+        )  # fmt: skip
     chosen = commands_path or command_file_beside(deck_path)
     origin = None if user or values else origin_of(deck_path, chosen)
     kept = origin and find(origin)

@@ -206,7 +206,10 @@ def test_check_tells_warnings_and_contents(pipeline, capsys) -> None:
     ("argv", "said"),
     [
         (["diff", "no.csv", "cable.adm"], "'no.csv': No such file"),
-        (["diff", "-", "cable.adm"], "'-': No such file or directory; standard input is not read"),
+        (
+            ["diff", "-", "cable.adm"],
+            "'-': No such file or directory; here that is no standard input",
+        ),
         (["diff", "cable.adm", "cable.adm"], "results cannot be read from cable.adm"),
         (["solve", "cable.adm", "-o", "no/out.csv"], "no such folder"),
         (["solve", "cable.adm", "-o", "."], "it is a folder"),
@@ -362,31 +365,3 @@ def test_an_interrupt_while_commands_are_loaded_is_told(monkeypatch, capsys) -> 
     monkeypatch.setattr("adamslite.cli.main._with_commands", interrupted)
     assert main(["solve", "deck.adm"]) == 4
     assert capsys.readouterr().err == "adamslite: interrupted\n"
-
-
-AT_SIGINT = """
-import signal, sys
-signal.signal(signal.SIGINT, signal.{before})
-import adamslite.__main__ as command
-from adamslite.cli import main as cli
-print(signal.getsignal(signal.SIGINT).name if command.REACHED else "kept")
-def run():
-    print(signal.getsignal(signal.SIGINT) is signal.default_int_handler)
-    raise KeyboardInterrupt
-cli.main = run
-print(command.main(), signal.getsignal(signal.SIGINT) is signal.SIG_DFL)
-"""
-
-
-@pytest.mark.parametrize(
-    ("before", "lines"),
-    [
-        ("default_int_handler", ["SIG_DFL", "True", "4 True"]),
-        ("SIG_IGN", ["kept", "False", "4 False"]),
-    ],
-)
-def test_an_interrupt_while_modules_are_loaded_leaves_no_trace(before, lines) -> None:
-    """There it ends the process; in a command it is reported; what a shell ignores stays so."""
-    program = AT_SIGINT.format(before=before)
-    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
-    assert (run.stdout.splitlines(), run.stderr) == (lines, "adamslite: interrupted\n")

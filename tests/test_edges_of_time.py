@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from pytest import approx
-from scenes import GROUND, done, options
+from scenes import GROUND, SPRING, done, options
 
 import adamslite as al
 from adamslite.results.outcomes import Outcome
@@ -67,3 +67,12 @@ def test_an_edge_just_before_an_output_time_leaves_the_steps_behind_it_long():
     place = 1e-3 + (0.1 * np.cos(5.0) - 1e-3) * np.cos(5.0) - 0.1 * np.sin(5.0) ** 2
     assert run["POINT_MASS/2.x"][-1] == approx(place, abs=1e-4)
     assert run.summary["steps"] < 1.5 * plain.summary["steps"]
+
+
+@pytest.mark.parametrize("method", ["GSTIFF", "HHT", "RADAU", "ABAM", "VERLET"])
+def test_a_largest_step_beyond_the_run_is_no_limit(method: str) -> None:
+    """Also where its square is no number."""
+    deck = al.read(SPRING)
+    runs = [al.simulate(deck, end=1.0, steps=4, integrator=method, hmax=h) for h in (1.0, 1e300)]
+    assert all(each.outcome is al.Outcome.DONE for each in runs)
+    assert (runs[0].values == runs[1].values).all()

@@ -15,7 +15,6 @@ from test_large_start import ring
 from tiers import every
 
 import adamslite as al
-from adamslite.analyses.worker import Worker
 from adamslite.equations import engine
 from adamslite.equations.engine import engine_parts
 from adamslite.errors import UsageError
@@ -23,6 +22,7 @@ from adamslite.kernels.code import lookup
 from adamslite.language.method import AUTO, FIXED, declared
 from adamslite.native.translate import REGISTERED, symbol
 from adamslite.native.translate.language import RARE, SELDOM
+from adamslite.native.worker import Worker
 
 ENTRIES = sorted({method.entry for method in declared()} | {engine.OPERATIONS})
 for _entry in ENTRIES:

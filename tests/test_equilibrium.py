@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import threading
+
 import numpy as np
 import pytest
 
 import adamslite as al
+from adamslite.analyses import static
+from adamslite.native import worker
 
 PENDULUM = """a pendulum of length 1 at rest at {x}, {y}
 PART/1, GROUND
@@ -132,20 +136,85 @@ END
     np.testing.assert_allclose(place, expected, rtol=0, atol=1e-12 * 300)
 
 
-def test_a_body_that_nothing_holds_has_no_equilibrium() -> None:
-    """However small the steps that are tried: its weight stays."""
-    deck = """\
+LOOSE = """\
 a falling body
 ACCGRAV/JGRAV=-9.81
 PART/1, GROUND
 MARKER/1, PART=1
 POINT_MASS/2, MASS=1, CM=2, QG=0,0,0
 MARKER/2, POINT_MASS=2
-EQUILIBRIUM/ERROR=1E-9, IMBALANCE=1E-9, TLIMIT=1E-3
+EQUILIBRIUM/ERROR=1E-9, IMBALANCE=1E-9, TLIMIT=1E-3, MAXIT={most}
 SIMULATE/STATICS
 END
 """
-    assert al.simulate(al.read(deck)).outcome is al.Outcome.NO_EQUILIBRIUM
+ENDLESS = LOOSE.format(most=2_000_000_000)
+
+
+def test_a_body_that_nothing_holds_has_no_equilibrium() -> None:
+    """However small the steps that are tried: its weight stays."""
+    results = al.simulate(al.read(LOOSE.format(most=25)))
+    assert results.outcome is al.Outcome.NO_EQUILIBRIUM
+
+
+def test_a_search_of_few_unknowns_ends_by_ctrl_c(monkeypatch) -> None:
+    al.simulate(al.read(LOOSE.format(most=25)))  # nothing is compiled below
+
+    def pressed(self: worker.Worker[int], timeout: float) -> None:
+        monkeypatch.undo()
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(worker.Worker, "wait", pressed)
+    with pytest.raises(KeyboardInterrupt):
+        al.simulate(al.read(ENDLESS))
+    assert not worker.left_working()
+
+
+def test_a_search_of_few_unknowns_ends_with_its_cpu() -> None:
+    results = al.simulate(al.read(ENDLESS), cpu_limit=0.3)
+    assert results.outcome is al.Outcome.CPU_LIMIT
+
+
+def test_a_search_begun_again_is_the_same_search(monkeypatch) -> None:
+    """Of 40 links, which take more iterations than the first try has."""
+    deck = al.read(cantilever(40, 20.0, 1e7))
+    usual = al.simulate(deck)
+    monkeypatch.setattr(static, "SOON", 10**9)
+    at_once = al.simulate(deck)
+    assert (usual.values == at_once.values).all()
+
+
+def test_what_cannot_be_ended_is_left(monkeypatch) -> None:
+    """Linear algebra and compilers: nobody waits for them, and the process knows of them."""
+    done = threading.Event()
+    monkeypatch.setattr(worker, "GRACE", 0.01)
+    with pytest.raises(worker.Overspent):
+        worker.interruptible(done.wait, over=lambda: True)
+    assert worker.left_working()
+    done.set()
+    worker._left[-1].wait(60.0)
+    assert not worker.left_working()
+
+
+def test_a_search_that_is_repeated_with_pivoting_is_no_longer_than_others(monkeypatch) -> None:
+    """Its iterations cost the cube of its unknowns: 300 masses that nothing holds."""
+    head, body = LOOSE.format(most=5).split("POINT_MASS/2", 1)[0], []
+    for i in range(2, 302):
+        body += [f"POINT_MASS/{i}, MASS=1, CM={i}, QG={i},0,0", f"MARKER/{i}, POINT_MASS={i}"]
+    found = []
+    searched = static.searched
+
+    def seen(system, budget):
+        control = static.Control(system.control)
+        found.append((system.elimination.pivoting, system.nz, control.relaxations))
+        return searched(system, budget)
+
+    monkeypatch.setattr(static, "searched", seen)
+    results = al.simulate(al.read("\n".join([head, *body, "SIMULATE/STATICS", "END\n"])))
+    assert results.outcome is al.Outcome.NO_EQUILIBRIUM
+    assert [pivoting for pivoting, _, _ in found] == [False, False, True]
+    assert [most for _, _, most in found[:2]] == [static.RELAXATIONS] * 2
+    _, unknowns, most = found[2]
+    assert unknowns == 900 and 0 < most * unknowns**3 <= static.REPEATED
 
 
 def cantilever(count: int, force: float, stretch: float) -> str:

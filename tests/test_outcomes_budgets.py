@@ -15,10 +15,10 @@ import adamslite as al
 from adamslite import Outcome
 from adamslite.analyses import dynamic
 from adamslite.analyses.output_times import spread_times
-from adamslite.analyses.worker import Worker
 from adamslite.cli.main import main
 from adamslite.errors import UsageError
 from adamslite.integrators.stepping.budget import MOST_CREPT
+from adamslite.native.worker import Worker
 
 POINT = GROUND + "POINT_MASS/2, MASS=1, CM=2, QG=1,0,0\nMARKER/2, POINT_MASS=2\n"
 METHODS = ("GSTIFF", "GSTIFF, I3", "HHT", "RADAU", "ABAM", "VERLET")

@@ -14,12 +14,13 @@ from scenes import GROUND, done, run
 
 import adamslite as al
 from adamslite import Outcome, machine
-from adamslite.analyses import run_size, session, session_state, worker
+from adamslite.analyses import run_size, session, session_state
 from adamslite.analyses.output_times import rows_of
 from adamslite.analyses.run_options import size_of
 from adamslite.cli.main import main
 from adamslite.elements.simulate import Simulate
 from adamslite.errors import RunFailed, UsageError
+from adamslite.native import worker
 
 POINT = GROUND + "POINT_MASS/2, MASS=1, CM=2, VX=1\nMARKER/2, POINT_MASS=2\nEND\n"
 PART = GROUND + "PART/2, MASS=1, IP=1,1,1, CM=2, VX=1\nMARKER/2, PART=2\nEND\n"

@@ -16,7 +16,7 @@ import sys
 from adamslite.analyses import dynamic, history
 history.SETTLED, history.EVERY, history.LONG, dynamic.ROOM = 0.0, 0.02, 0.3, 3000
 dynamic.WATCH_INTERVAL = 0.02
-from adamslite.cli.main import main
+from adamslite.__main__ import main
 sys.exit(main())
 """
 #: A start takes longer than this only where something hangs [s].

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import signal
-import threading
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import partial
@@ -17,12 +15,12 @@ from adamslite.analyses.clock.step_limits import timetable
 from adamslite.analyses.run_options import Budget
 from adamslite.analyses.sensors import EQUAL, require_changing, require_none
 from adamslite.analyses.step_limits import StepLimits
-from adamslite.analyses.worker import Worker
 from adamslite.equations.engine import ints
 from adamslite.integrators import contract
 from adamslite.integrators.contract import SPECTRUM
 from adamslite.language.method import FIXED, FIXED_BY_HINIT, USUAL, method_of
 from adamslite.native.translate import Rows
+from adamslite.native.worker import Worker, is_interrupted_here
 from adamslite.progress import RunState
 from adamslite.results.outcomes import Outcome
 
@@ -169,7 +167,8 @@ def make_ready(
     """
     start, end = float(times[0]), float(times[-1])
     fixed = settings.fixed_step(apart)
-    hmax = fixed or settings.hmax or apart
+    # A longer step than the run is none, and its square may be no number.
+    hmax = fixed or min(settings.hmax or apart, max(apart, end - start))
     run = system.settings
     run.t, run.t_end, run.error = start, end, settings.error
     run.h_max, run.h_min = hmax, settings.least_step(end, hmax)
@@ -310,12 +309,6 @@ def is_held_down(system: System) -> bool:
     return decay * step > HELD_DOWN and decay * decay > squared
 
 
-def _is_interrupted_here() -> bool:
-    """Whether an interruption arrives in this thread; it does not in workers of a sweep."""
-    main = threading.current_thread() is threading.main_thread()
-    return main and signal.getsignal(signal.SIGINT) is not signal.SIG_IGN
-
-
 def _watched(
     system: System,
     method: Method,
@@ -330,7 +323,7 @@ def _watched(
     code = outlet.begin() if outlet else None
     if code is None:
         code = _first_tries(system, method, judged)
-    unseen = progress is None and budget.cpu is None and not _is_interrupted_here()
+    unseen = progress is None and budget.cpu is None and not is_interrupted_here()
     if code in UNFINISHED and unseen:
         return _resumed(system, method, judged, outlet)
     if code not in UNFINISHED and not (progress and progress.is_due()):
@@ -340,12 +333,20 @@ def _watched(
         running = Worker(partial(_resumed, system, method, judged, outlet))
         _watch(running, system, progress, look, budget, outlet)
         code = running.result()
+        if code == contract.DONE and _was_interrupted(system, budget, outlet):
+            return contract.INTERRUPTED  # just before its end; more may follow
     try:
         if progress and not system.settings.stop and progress.is_due():
             progress.watch(look())  # it may be one of many short runs
     except KeyboardInterrupt:
         return contract.INTERRUPTED
     return code
+
+
+def _was_interrupted(system: System, budget: Budget, outlet: Outlet | None) -> bool:
+    """Whether the user has interrupted a run, whatever it has come to since."""
+    asked = bool(system.settings.stop) and not budget.out_of_time
+    return asked or (outlet is not None and bool(outlet.interrupted))
 
 
 def _watch(

@@ -8,7 +8,7 @@ from outside, as interruptions are, and between the steps of analyses that are n
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from math import inf, nan
@@ -162,6 +162,16 @@ class Budget:
         return self.cpu is not None and clock.process_time() - self.began > self.cpu
 
     @property
+    def over(self) -> Callable[[], bool] | None:
+        """What says whether the CPU is spent, where it is limited."""
+        return None if self.cpu is None else lambda: self.out_of_time
+
+    @property
+    def steps_left(self) -> int | None:
+        """For what is run next: at least one."""
+        return None if self.steps is None else max(1, self.steps - self.taken)
+
+    @property
     def cpu_left(self) -> float | None:
         """For what is run again [s]: next to nothing when all is spent."""
         if self.cpu is None:
@@ -174,6 +184,12 @@ class Budget:
             return Outcome.CPU_LIMIT
         spent = self.steps is not None and self.taken + steps >= self.steps
         return Outcome.STEP_LIMIT if spent else None
+
+
+def budget_of(options: dict[str, Any]) -> tuple[Budget, int | None]:
+    """What may be spent from now on, and the limit of memory, both taken out of checked options."""
+    cpu, steps = options.pop("cpu_limit", None), options.pop("max_steps", None)
+    return Budget(cpu, steps, clock.process_time()), options.pop("memory_limit", None)
 
 
 @contextmanager

@@ -36,6 +36,7 @@ from adamslite.deck.redefinition import Redefinition
 from adamslite.equations.engine import engine
 from adamslite.integrators import contract
 from adamslite.integrators.contract import ACCELERATIONS, RECORD, RECORD_AT_REST
+from adamslite.native.worker import Overspent, interruptible
 from adamslite.progress import AnalysisProgress
 from adamslite.results.outcomes import Outcome
 
@@ -342,7 +343,11 @@ class Session(SessionState):
         from adamslite.analyses.linearization.linearization import carried_out
 
         require_no_delay(self.kernels, "LINEAR", "x(t - delay) has no state matrix")
-        self.linearizations.append(carried_out(command, self.system, self.time))
+        found = partial(carried_out, command, self.system, self.time)
+        try:
+            self.linearizations.append(interruptible(found, over=self.budget.over))
+        except Overspent:
+            self.outcome = Outcome.CPU_LIMIT
 
     def _do_info(self, command: Info) -> None:
         from adamslite.analyses.info import info

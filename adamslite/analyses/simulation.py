@@ -15,7 +15,7 @@ import numpy as np
 from adamslite.analyses.accuracy_notes import accuracy_notes
 from adamslite.analyses.buckling import buckled
 from adamslite.analyses.output_times import SETTINGS, dynamics, need_room, plan_of
-from adamslite.analyses.run_options import Budget, checked, within_memory
+from adamslite.analyses.run_options import Budget, budget_of, checked, within_memory
 from adamslite.analyses.session import Session
 from adamslite.analyses.slack import compressed
 from adamslite.analyses.subject import deck_of, prepared_for
@@ -28,7 +28,9 @@ from adamslite.integrators.linalg.plan import TINY
 from adamslite.language.interfaces import key_of
 from adamslite.language.method import without_effect
 from adamslite.model.reduction import MERGED, kept_apart, left_off
+from adamslite.native.worker import Overspent, interruptible
 from adamslite.outputs.saved_files import SavedFiles
+from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 from adamslite.results.source import source_of
 
@@ -200,12 +202,13 @@ def linearize(
     commands: Iterable[Command] = (),
     time: float | None = None,
     rm: Key | None = None,
+    **limits: Any,
 ) -> Linearization:
     """The model about one state: at the end of the commands, or integrated to ``time``.
 
     Without commands, and without SIMULATE in the deck, the assembled start is taken as it is.  A
     LINEAR command decides state and observer; otherwise, and with ``rm``, a MARKER on whose body
-    the observer stands, it is the last state.
+    the observer stands, it is the last state.  ``limits`` are those of :func:`simulate`.
 
     Raises
     ------
@@ -221,13 +224,20 @@ def linearize(
     marker = None if rm is None else _marker(deck, str(rm))
     settings = (s for s in deck.statements if s.keyword in ("INTEGRATOR", "EQUILIBRIUM"))
     plan: list[Command] = [*settings, *commands, *([dynamics(time)] if time else [])]
-    session = Session(prepared_for(scene, plan), None, {}, frozenset({MERGED}))
-    session.execute(plan)
-    system = session.system
-    if not session.outcome.is_requested:
-        raise RunFailed(explained(session))
-    made = session.linearizations
-    return made[-1].model if made and rm is None else linear(system, relative_to=marker)
+    budget, memory = budget_of(checked(limits))
+    with within_memory(memory):
+        session = Session(prepared_for(scene, plan), None, {}, frozenset({MERGED}), budget=budget)
+        session.execute(plan)
+        if not session.outcome.is_requested:
+            raise RunFailed(explained(session))
+        made = session.linearizations
+        if made and rm is None:
+            return made[-1].model
+        about = partial(linear, session.system, relative_to=marker)
+        try:
+            return interruptible(about, over=budget.over)
+        except Overspent:
+            raise RunFailed(Outcome.CPU_LIMIT.sentence) from None
 
 
 def _need_time(time: object) -> None:

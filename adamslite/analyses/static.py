@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.analyses.worker import interrupted
 from adamslite.equations.engine import ints
 from adamslite.integrators import contract
 from adamslite.integrators.contract import EQUILIBRIUM, JACOBIAN, STATIC
 from adamslite.integrators.equilibrium_control import Control
+from adamslite.native.worker import Overspent, interruptible
 from adamslite.results.outcomes import Outcome
 
 if TYPE_CHECKING:
@@ -24,8 +24,12 @@ if TYPE_CHECKING:
 # Matrices up to this many unknowns may be eliminated densely when the block order meets a singular
 # pivot.
 PIVOTING = 3000
-# Unknowns from which on a search may take seconds, and can be interrupted.
-SLOW = 300
+# Steps of relaxation; and what they may cost with pivoting over the whole matrix, each the cube of
+# its unknowns: in a search, and in one that repeats others.
+RELAXATIONS, ELIMINATED, REPEATED = 3000, 5e10, 5e9
+# Iterations of a search, times unknowns, that are over before anybody would interrupt them: a
+# thread takes longer than most searches.
+SOON = 3000
 # Short increments: of the model, and angles [rad].
 SHORT = 0.01
 # Unknowns up to which a count of unstable motions is confirmed by eigenvalues.
@@ -65,7 +69,7 @@ def at_rest(
     its diagonal: elimination without pivoting may blow up where the equilibrium is regular.
     ``pivoted``: another system in its state, eliminated with row pivoting.
     """
-    start = [(x, x.copy()) for x in (system.q, system.z, system.mu, system.base)]
+    start = posture(system)
     tlimit, alimit = SHORT * model_size(system), SHORT
     short = replace(
         settings, tlimit=min(settings.tlimit, tlimit), alimit=min(settings.alimit, alimit)
@@ -75,20 +79,35 @@ def at_rest(
         outcome = run_static(system, limits, budget)
         if outcome is not Outcome.NO_EQUILIBRIUM:
             return outcome, system.report.ways_to_fall
-        for array, before in start:
-            array[:] = before
+        put_back(start)
     if system.elimination.pivoting or system.nz > PIVOTING:
         return outcome, system.report.ways_to_fall
+    # Where pivots were to blame this one settles within a few iterations; its relaxation is no
+    # other than before.
     spare = pivoted()
-    outcome = run_static(spare, settings, budget)
+    outcome = run_static(spare, settings, budget, REPEATED)
     system.adopt(spare)
     system.count.add(spare.count)
     return outcome, spare.report.ways_to_fall
 
 
-def run_static(system: System, settings: StaticSettings, budget: Budget) -> Outcome:
+def run_static(
+    system: System, settings: StaticSettings, budget: Budget, cost: float = ELIMINATED
+) -> Outcome:
     """Move ``system`` to an equilibrium at its present time; states with STATIC_HOLD stay."""
-    run = system.settings
+    make_ready(system, settings, cost)
+    try:
+        outcome = searched(system, budget)
+        if system.report.ways_to_fall != 0:
+            count = partial(ways_to_fall, system, settings.stability)
+            system.report.ways_to_fall = interruptible(count, over=budget.over)
+    except Overspent:
+        return Outcome.CPU_LIMIT
+    return Outcome.DONE if outcome == contract.DONE else Outcome.NO_EQUILIBRIUM
+
+
+def make_ready(system: System, settings: StaticSettings, cost: float) -> None:
+    """Put the numbers of a search in place, whose relaxation may cost so much."""
     system.make_room(control=Control.slots)
     C = Control(system.control)
     C[:] = 0
@@ -96,19 +115,44 @@ def run_static(system: System, settings: StaticSettings, budget: Budget) -> Outc
         setattr(C, name, getattr(settings, name))
     system.pattern = ints([word == "T" for word in settings.pattern])
     C.length = model_size(system)
+    each = float(system.nz) ** 3 if system.elimination.pivoting else 0.0
+    C.relaxations = RELAXATIONS if each * RELAXATIONS <= cost else int(cost / each)
     system.elimination.freeze(system.held_states)
+
+
+def searched(system: System, budget: Budget) -> int:
+    """The code of a search: a short one ends here, any other one begins again in a thread of its
+    own and can be ended.
+
+    Raises
+    ------
+    KeyboardInterrupt, Overspent
+        By the user; when the CPU of the run is spent.
+    """
+    run, C = system.settings, Control(system.control)
     run.stop = False
-    search = partial(system.run, EQUILIBRIUM)
-    if system.nz < SLOW:
-        outcome = search()
-    else:
-        stop = partial(setattr, run, "stop", True)
-        outcome = interrupted(search, stop, lambda: budget.out_of_time)
-    if run.stop:
-        return Outcome.CPU_LIMIT
-    if system.report.ways_to_fall != 0:
-        system.report.ways_to_fall = ways_to_fall(system, settings.stability)
-    return Outcome.DONE if outcome == contract.DONE else Outcome.NO_EQUILIBRIUM
+    C.most, C.tried = max(1, SOON // max(system.nz, 1)), 0
+    kept = posture(system)
+    counts = system.count.newton, system.count.factorizations
+    code = system.run(EQUILIBRIUM)
+    if code == contract.DONE or C.tried < C.most:
+        return code
+    put_back(kept)
+    system.count.newton, system.count.factorizations = counts
+    C.most, C.tried = 0, 0
+    stop = partial(setattr, run, "stop", True)
+    return interruptible(partial(system.run, EQUILIBRIUM), stop, budget.over)
+
+
+def posture(system: System) -> list[tuple[np.ndarray, np.ndarray]]:
+    """What a search changes, and what it was."""
+    return [(x, x.copy()) for x in (system.q, system.z, system.mu, system.base)]
+
+
+def put_back(kept: list[tuple[np.ndarray, np.ndarray]]) -> None:
+    """Let arrays be what they were."""
+    for array, before in kept:
+        array[:] = before
 
 
 def ways_to_fall(system: System, stability: float) -> int:

@@ -21,6 +21,7 @@ from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command
 from adamslite.language.diagnostics import DeckError, Diagnostic, limited, render
 from adamslite.language.messages.ignoring import without_ignored
+from adamslite.language.text import NamedText
 from adamslite.variation.decks import as_read
 
 
@@ -112,7 +113,7 @@ def _of_files(
     scene: str | os.PathLike[str], commands: CommandSource, user: User, values: Values
 ) -> Check:
     """Deck and command file as the command line checks them."""
-    title = f"{scene}".partition("\n")[0]
+    title = scene.name if isinstance(scene, NamedText) else f"{scene}".partition("\n")[0]
     try:
         read = read_inputs(scene, commands, user, values)
     except DeckError as fault:

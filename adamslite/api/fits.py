@@ -32,6 +32,9 @@ def fit(
     formulation: str | None = None,
     error: float | None = None,
     hmax: float | None = None,
+    cpu_limit: float | None = None,
+    max_steps: int | None = None,
+    memory_limit: int | str | None = None,
     commands: CommandSource = None,
     user: User = None,
     progress: Progress | Callable[[float, float], Any] | bool | None = None,
@@ -57,6 +60,9 @@ def fit(
         The part of the measurement that is fitted [time].
     end, steps, integrator, formulation, error, hmax, commands, user
         As for :func:`adamslite.simulate`.
+    cpu_limit, max_steps, memory_limit
+        As there, of all runs together.  Where one is reached, or the user interrupts, the fit has
+        the best numbers by then, without standard errors, and ``stopped`` says so.
     progress : bool, callable or Progress
         Is shown how many runs are done.
 
@@ -77,8 +83,9 @@ def fit(
     """
     given = inputs(scene, commands, user)
     options = given_options(
-        end=end, steps=steps, integrator=integrator, formulation=formulation, error=error, hmax=hmax
-    )
+        end=end, steps=steps, integrator=integrator, formulation=formulation, error=error,
+        hmax=hmax, cpu_limit=cpu_limit, max_steps=max_steps, memory_limit=memory_limit,
+    )  # fmt: skip
     wanted = fits.Wanted(by, bounds, of, (start, until))
     with closing(progress_of(progress)) as shown:
         return fits.fit(

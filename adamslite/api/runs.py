@@ -119,6 +119,9 @@ def linearize(
     time: float | None = None,
     rm: Key | None = None,
     user: User = None,
+    cpu_limit: float | None = None,
+    max_steps: int | None = None,
+    memory_limit: int | str | None = None,
 ) -> Linearization:
     """The model about one state, as `adamslite linear` finds it.
 
@@ -127,7 +130,7 @@ def linearize(
 
     Parameters
     ----------
-    scene, commands, user
+    scene, commands, user, cpu_limit, max_steps, memory_limit
         As for :func:`simulate`.
     time : float
         The motion is followed up to this time.
@@ -141,7 +144,10 @@ def linearize(
     UsageError
         When there is no such MARKER.
     RunFailed
-        When the state could not be reached.
+        When the state could not be reached, or a limit was.
     """
     given = inputs(scene, commands, user)
-    return simulation.linearize(given.subject, given.commands, time, rm)
+    return simulation.linearize(
+        given.subject, given.commands, time, rm,
+        cpu_limit=cpu_limit, max_steps=max_steps, memory_limit=memory_limit,
+    )  # fmt: skip

@@ -26,6 +26,9 @@ def sensitivities(
     formulation: str | None = None,
     error: float | None = None,
     hmax: float | None = None,
+    cpu_limit: float | None = None,
+    max_steps: int | None = None,
+    memory_limit: int | str | None = None,
     commands: CommandSource = None,
     user: User = None,
     progress: Progress | Callable[[float, float], Any] | bool | None = None,
@@ -44,6 +47,9 @@ def sensitivities(
         wanted.  Histories of all columns unless given.
     end, steps, integrator, formulation, error, hmax, commands, user, progress
         As for :func:`adamslite.simulate`.
+    cpu_limit, max_steps, memory_limit
+        As there, of all that is worked out.  Where the CPU is spent behind the run, derivatives
+        that are missing are not a number, and ``stopped`` says so.
 
     Returns
     -------
@@ -63,8 +69,9 @@ def sensitivities(
     """
     given = inputs(scene, commands, user)
     options = given_options(
-        end=end, steps=steps, integrator=integrator, formulation=formulation, error=error, hmax=hmax
-    )
+        end=end, steps=steps, integrator=integrator, formulation=formulation, error=error,
+        hmax=hmax, cpu_limit=cpu_limit, max_steps=max_steps, memory_limit=memory_limit,
+    )  # fmt: skip
     with closing(progress_of(progress)) as shown:
         return worked_out(given.subject, by, of, given.commands, shown, **options)
 
@@ -79,6 +86,9 @@ def gradient(
     formulation: str | None = None,
     error: float | None = None,
     hmax: float | None = None,
+    cpu_limit: float | None = None,
+    max_steps: int | None = None,
+    memory_limit: int | str | None = None,
     commands: CommandSource = None,
     user: User = None,
 ) -> Sensitivities:
@@ -99,6 +109,8 @@ def gradient(
         Names of numbers; ``all``: every number on which equations may hang.
     end, steps, integrator, formulation, error, hmax, commands, user
         As for :func:`adamslite.simulate`.
+    cpu_limit, max_steps, memory_limit
+        As for :func:`adamslite.sensitivities`.
 
     Returns
     -------
@@ -117,6 +129,7 @@ def gradient(
     """
     given = inputs(scene, commands, user)
     options = given_options(
-        end=end, steps=steps, integrator=integrator, formulation=formulation, error=error, hmax=hmax
-    )
+        end=end, steps=steps, integrator=integrator, formulation=formulation, error=error,
+        hmax=hmax, cpu_limit=cpu_limit, max_steps=max_steps, memory_limit=memory_limit,
+    )  # fmt: skip
     return swept(given.subject, of, by, given.commands, **options)

@@ -33,7 +33,7 @@ import gc
 import os
 import sys
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager, nullcontext, suppress
 from errno import ENOMEM
 from importlib import import_module
 from io import BufferedWriter, FileIO, TextIOWrapper
@@ -108,8 +108,7 @@ class Shown:
 #: and what a large deck is made of would be looked through again and again.
 GARBAGE = 1_000_000
 
-NOT_PIPED = "; standard input is not read, because files of results and commands take their names"
-NOT_PIPED += " from that of the deck"
+NOT_PIPED = "; here that is no standard input, as a deck or a description of a cable may be"
 NO_MEMORY = "there is not enough memory for that; no file was changed"
 REPORT = (
     "adamslite: a fault in the program, not in your deck: {fault}\n"
@@ -130,6 +129,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         code = _run(argv, own)
     if own:
         code = _end_output(code)
+        _leave_workers(code)
         gc.freeze()  # nothing is looked through while the process ends
     return code
 
@@ -195,6 +195,17 @@ def _end_output(code: int) -> int:
         if code == DONE and not isinstance(fault, BrokenPipeError):
             _explain(fault)
         return code or IO_FAILED
+
+
+def _leave_workers(code: int) -> None:
+    """End the process where a call still works that nobody waits for: the libraries that it is in
+    cannot be taken down under it.
+    """
+    worker = sys.modules.get("adamslite.native.worker")
+    if worker is not None and worker.left_working():
+        with suppress(OSError):
+            sys.stderr.flush()
+        os._exit(code)
 
 
 def _write_every_letter() -> None:

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from adamslite.analyses.run_options import Budget
 from adamslite.analyses.simulation import simulate
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command
@@ -48,6 +49,14 @@ class Failed(RunFailed):
     """A run that gives no curves; says how it ended."""
 
 
+class Spent(RunFailed):
+    """The runs of a fit have come to a limit; says to which."""
+
+
+#: Outcomes that end a fit, and not one of its runs.
+LIMITS = (Outcome.CPU_LIMIT, Outcome.STEP_LIMIT, Outcome.MEMORY_LIMIT)
+
+
 @dataclass
 class Runs:
     """Runs of a deck with other numbers.
@@ -71,6 +80,10 @@ class Runs:
     count: int = 0
     interpolate: str | None = None
     """How values between output times are found."""
+    budget: Budget = field(default_factory=Budget)
+    """What all runs together may spend."""
+    best: tuple[np.ndarray, Results] | None = None
+    """Coordinates of the best numbers so far, and their run."""
     _last: tuple[tuple[Any, ...], Results] | None = field(init=False, default=None)
 
     def results(self, values: Sequence[float], **options: Any) -> Results:
@@ -80,16 +93,17 @@ class Runs:
         ------
         Failed
             When the numbers make no model, or the run ends early.
+        Spent
+            When it would go beyond a limit.
         """
-        asked = (*values, *sorted(options.items()), *sorted(self.options.items()))
+        asked = self._asked(values, options)
         if self._last is not None and self._last[0] == asked:
             return self._last[1]
+        self.need_left()
         self.count += 1
         self.progress.watch(FitState(time=0.0, end=1.0, steps=self.count))
         try:
-            found = simulate(
-                self.deck_with(values), commands=self.commands, **{**self.options, **options}
-            )
+            found = simulate(self.deck_with(values), commands=self.commands, **self.lent(options))
         except DeckError as fault:
             first = next((each for each in fault.diagnostics if each.is_error), None)
             raise Failed(first.message if first else str(fault)) from None
@@ -97,11 +111,31 @@ class Runs:
             raise Failed(str(fault)) from None
         if found.outcome is Outcome.INTERRUPTED:
             raise KeyboardInterrupt
+        self.budget.taken += int(found.summary["steps"])
+        if found.outcome in LIMITS:
+            raise Spent(found.outcome.sentence)
         if not found.outcome.is_requested:
             reached = found.summary.get("t_end", found.time[-1] if found.time.size else 0.0)
             raise Failed(f"{found.outcome.name} at t = {reached:.6g}")
         self._last = asked, found
         return found
+
+    def _asked(self, values: Sequence[float], options: Mapping[str, Any]) -> tuple[Any, ...]:
+        return (*values, *sorted(options.items()), *sorted(self.options.items()))
+
+    def lent(self, options: Mapping[str, Any]) -> dict[str, Any]:
+        """Options of a run, which may spend what is left."""
+        left = {"cpu_limit": self.budget.cpu_left, "max_steps": self.budget.steps_left}
+        return {**self.options, **{k: v for k, v in left.items() if v is not None}, **options}
+
+    def need_left(self) -> None:
+        """Raises Spent when nothing is left to be spent."""
+        if outcome := self.budget.spent():
+            raise Spent(outcome.sentence)
+
+    def take_up(self, values: Sequence[float], results: Results) -> None:
+        """Remember the run of some numbers."""
+        self._last = self._asked(values, {}), results
 
     def deck_with(self, values: Sequence[float]) -> Deck:
         """The deck with these numbers."""

@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from adamslite.errors import RunFailed, UsageError
-from adamslite.fitting.curves import Failed, Runs, error_of
+from adamslite.fitting.curves import Failed, Runs, Spent, error_of
 from adamslite.fitting.measured import Measured, amplitudes
 from adamslite.language.diagnostics import DeckError
 from adamslite.results.comparison import Mismatch, sampler
@@ -97,10 +97,13 @@ class Derivatives:
         try:
             found = sensitivities(
                 runs.deck_with(values), by, measured.channels, runs.commands, None,
-                **{**runs.options, **options},
+                **runs.lent(options),
             )  # fmt: skip
         except (DeckError, RunFailed, ArithmeticError) as fault:
+            runs.need_left()
             raise Failed(str(fault)) from None
+        if found.stopped:
+            raise Spent(found.stopped)
         sample = sampler(found.results, measured.time, runs.interpolate)
         return [
             np.column_stack([sample(found.curve(channel, name)) for channel in measured.channels])

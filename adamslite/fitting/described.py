@@ -32,15 +32,24 @@ COARSE = (
 
 
 def described(
-    search: Search, before: Results, x: np.ndarray, stopped: str, notes: list[str]
+    search: Search,
+    before: Results,
+    x: np.ndarray,
+    stopped: str,
+    notes: list[str],
+    limited: bool = False,
 ) -> Fit:
-    """The record of a fit that has ended at ``x`` (np,)."""
+    """The record of a fit that has ended at ``x`` (np,); without another run where it is
+    ``limited``.
+    """
     runs, measured = search.runs, search.measured
     values = np.array(search.values(x))
     results = runs.results(values.tolist())
     curves = runs.sampled(results, measured)
     residuals = _residuals(curves, measured, results)
-    found, said = _judged(search, values, results, stopped)
+    found, said = unknown([each.name for each in runs.parameters]), list[str]()
+    if not limited:
+        found, said = _judged(search, values, results, stopped)
     numbers = dict(zip((each.name for each in runs.parameters), values.tolist(), strict=True))
     return Fit(
         parameters=tuple(runs.parameters), values=values,
@@ -49,6 +58,7 @@ def described(
         deck=with_values(runs.deck, {**runs.given, **numbers}), results=results, before=before,
         measured=measured, curves=curves, sigmas=search.sigmas, runs=runs.count,
         derivatives=str(search.derivatives), stopped=stopped,
+        limited=limited,
         notes=tuple(shown(each) for each in (
             *notes, *_poor(residuals, before, measured), *said, *_vanished(runs, values)
         ) if each),

@@ -13,17 +13,19 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from adamslite.analyses.run_options import budget_of, checked
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command
 from adamslite.errors import RunFailed, UsageError
-from adamslite.fitting.curves import Failed, Runs, prepared
+from adamslite.fitting.curves import Failed, Runs, Spent, prepared
 from adamslite.fitting.derivatives import Derivatives
 from adamslite.fitting.described import described
 from adamslite.fitting.least_squares import STAGES, Search
-from adamslite.fitting.measured import amplitudes, measured_of
+from adamslite.fitting.measured import Measured, amplitudes, measured_of
 from adamslite.fitting.parameters import Bounds, parameters_of
 from adamslite.fitting.record import Fit
 from adamslite.progress import Progress
+from adamslite.results.outcomes import Outcome
 from adamslite.variation.decks import variable_of
 from adamslite.verification.reference_file import Reference
 
@@ -78,7 +80,11 @@ def fit(
     found = parameters_of(variable_of(base).numbers, wanted.by, wanted.bounds, deck.values)
     own, asked = reference.options, options or {}
     own = {name: each for name, each in own.items() if name in FLAGS and name not in asked}
-    runs = Runs(base, deck.values, found, commands, {**own, **asked})
+    asked = checked(asked)
+    budget, memory = budget_of(asked)
+    memory_limit = {} if memory is None else {"memory_limit": memory}
+    runs = Runs(base, deck.values, found, commands, {**own, **asked, **memory_limit})
+    runs.budget = budget
     runs.progress = progress or runs.progress
     start = [each.start for each in found]
     try:
@@ -92,10 +98,27 @@ def fit(
         raise UsageError(
             f"{measured.name}: {measured.count} values do not determine {len(found)} numbers"
         )
+    runs.best = np.zeros(len(found)), before
     derivatives = Derivatives(runs, measured)
-    x, sigmas, stopped = _solved(derivatives)
-    search = Search(derivatives, sigmas)
-    return described(search, before, x, stopped, [*measured.notes, *notes])
+    said = [*measured.notes, *notes]
+    try:
+        x, sigmas, stopped = _solved(derivatives)
+        return described(Search(derivatives, sigmas), before, x, stopped, said)
+    except (Spent, KeyboardInterrupt) as fault:
+        x, best = runs.best
+        search = Search(derivatives, _first_sigmas(measured))
+        runs.take_up(search.values(x), best)
+        return described(search, before, x, _ending(fault), said, limited=True)
+
+
+def _ending(fault: BaseException) -> str:
+    """What has ended the runs of a fit."""
+    return Outcome.INTERRUPTED.sentence if isinstance(fault, KeyboardInterrupt) else str(fault)
+
+
+def _first_sigmas(measured: Measured) -> np.ndarray:
+    """What residuals are divided by before anything is known of the noise (nt, nc)."""
+    return np.where(measured.bands > 0.0, measured.bands, amplitudes(measured))
 
 
 def _of_the_file(reference: Reference, own: Mapping[str, Any]) -> list[str]:
@@ -109,7 +132,7 @@ def _solved(derivatives: Derivatives) -> tuple[np.ndarray, np.ndarray, str]:
     runs, measured = derivatives.runs, derivatives.measured
     spreads = amplitudes(measured)
     banded = measured.bands.any(axis=0)
-    sigmas = np.where(measured.bands > 0.0, measured.bands, spreads)
+    sigmas = _first_sigmas(measured)
     x, stopped = _searched(Search(derivatives, sigmas), spreads)
     noise = np.where(banded, 1.0, spreads)
     for _ in range(0 if banded.all() else MOST_ROUNDS):

@@ -62,6 +62,8 @@ class Search:
     sigmas: np.ndarray
     known: dict[tuple[float, ...], Any] = field(default_factory=dict)
     """Curves by values, or the :class:`Failed` of a run."""
+    least: float = np.inf
+    """The sum of squares of the best run so far."""
     last: tuple[tuple[float, ...], np.ndarray] | None = None
     """The last Jacobian, and its values."""
 
@@ -96,12 +98,19 @@ class Search:
         if values not in self.known:
             try:
                 self.known[values] = self.runs.curves(values, self.measured)
+                self._weigh(x, values)
             except Failed as fault:
                 self.known[values] = fault
         found = self.known[values]
         if isinstance(found, Failed):
             return np.full(self.measured.count, np.nan)
         return self.residuals(found)
+
+    def _weigh(self, x: np.ndarray, values: tuple[float, ...]) -> None:
+        """Remember the run that has just been made, if it comes closest."""
+        cost = float(np.sum(self.residuals(self.known[values]) ** 2))
+        if cost < self.least:
+            self.least, self.runs.best = cost, (x.copy(), self.runs.results(values))
 
     def slopes(self, x: np.ndarray) -> np.ndarray:
         """The Jacobian (n, np)."""

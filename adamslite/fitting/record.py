@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
 
 HEAD = ("number", "start", "fitted", "standard error", "")
-UNIDENTIFIABLE, AT_BOUND = "not identifiable", "at its bound"
+UNIDENTIFIABLE, AT_BOUND, UNKNOWN = "not identifiable", "at its bound", "not worked out"
 #: Correlations are printed for so many numbers; of more only those that are larger than this.
 MOST_SHOWN, LARGE = 8, 0.95
 #: Residuals that the deck does not explain: so many times beyond their band, and without band so
@@ -86,6 +86,8 @@ class Fit:
         What else there is to say.
     stopped : str
         Why it ended early; empty when it is done.
+    limited : bool
+        Whether a limit or the user ended it, before standard errors were worked out.
     """
 
     parameters: tuple[Parameter, ...]
@@ -103,6 +105,7 @@ class Fit:
     derivatives: str
     notes: tuple[str, ...] = ()
     stopped: str = ""
+    limited: bool = False
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -201,6 +204,7 @@ class Fit:
         for each, value, error in zip(self.parameters, self.values, self.errors, strict=True):
             known = np.isfinite(error)
             why = AT_BOUND if each.at_bound(value) else UNIDENTIFIABLE
+            why = UNKNOWN if self.limited else why
             shown, off = _with_error(value, error) if known else (f"{value:.6g}", why)
             part = f"{100.0 * error / abs(value):.2g} %" if known and value else ""
             found.append((short(each.name), f"{each.start:.6g}", shown, off, part))

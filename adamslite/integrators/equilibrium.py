@@ -23,7 +23,6 @@ from adamslite.integrators.motion_equations import PART, jacobian, put_pose, res
 from adamslite.integrators.newton import apply_increment
 from adamslite.native.translate import native, rare
 
-RELAXATIONS = 3000
 GROWTH, UPHILL = 1.6, 4.0
 # An equilibrium is far from the start beyond this share of the model, or this turn [rad].
 FAR = 0.02
@@ -64,7 +63,7 @@ def newton(P: Problem, L: Plan) -> bool:
     C.sigma, C.found = C.stability, False
     renews = True
     for iteration in range(C.maxit):
-        if P.settings.stop:
+        if given_up(P):
             return False
         if not static_step(P, L, renews):
             C.sigma, renews = max(10.0 * C.sigma, LEAST_SIGMA), True
@@ -82,8 +81,8 @@ def relaxed(P: Problem, L: Plan) -> bool:
     C = Control(P.control)
     C.sigma = first_sigma(P)
     last, signs = HUGE, pivot_signs(P, L, SMALL, 1.0)
-    for _iteration in range(RELAXATIONS):
-        if P.settings.stop:
+    for _iteration in range(C.relaxations):
+        if given_up(P):
             return False
         if signs >= 0 and pivot_signs(P, L, 1.0, C.sigma) != signs:
             # Too long a step: it would go uphill, to an unstable equilibrium.
@@ -99,6 +98,16 @@ def relaxed(P: Problem, L: Plan) -> bool:
         else:
             C.sigma /= GROWTH * GROWTH
         last = C.worst
+    return False
+
+
+@native
+def given_up(P: Problem) -> bool:
+    """Whether the search is to end before another iteration."""
+    C = Control(P.control)
+    if P.settings.stop or (C.most > 0 and C.tried >= C.most):
+        return True
+    C.tried += 1
     return False
 
 

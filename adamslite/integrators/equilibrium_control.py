@@ -12,6 +12,8 @@ class Control(Record):
     error, imbalance     relative correction, residual [force] at which it is done
     stability            times the mass matrix is added to the stiffness
     maxit                iterations of Newton
+    relaxations          steps of relaxation
+    most, tried          iterations before the search is given up, 0 where none are too many; so far
     length               of the model
     sigma                times the mass matrix is added now
     worst, moved         largest residual [force], relative correction of the last iteration
@@ -25,6 +27,9 @@ class Control(Record):
     imbalance: float
     stability: float
     maxit: int
+    relaxations: int
+    most: int
+    tried: int
     length: float
     sigma: float
     worst: float

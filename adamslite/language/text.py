@@ -8,6 +8,7 @@ import errno
 import os
 import re
 import stat
+import sys
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Iterator
 from functools import cache
@@ -72,6 +73,48 @@ def contents(path: str | Path, most: int = 0) -> bytes:
             if size <= most:
                 return b"".join(pieces)
     raise OSError(errno.EFBIG, f"more than {most / 1e6:.0f} MB are not read", str(path))
+
+
+class NamedText(str):
+    """A text with the name that messages give its places."""
+
+    name: str
+
+    @classmethod
+    def of(cls, text: str, name: str) -> NamedText:
+        """A text of at least one whole line, which no name of a file is."""
+        found = cls(text if "\n" in text else f"{text}\n")
+        found.name = name
+        return found
+
+
+#: The name of a file that means standard input, and the name of that in messages.
+PIPED, STDIN = "-", "<stdin>"
+
+
+def is_piped(path: object) -> bool:
+    """Whether a file is standard input."""
+    return str(path) == PIPED
+
+
+def piped() -> NamedText:
+    """The text of a deck that comes from standard input; see :func:`piped_bytes`."""
+    return NamedText.of(decoded(piped_bytes()), STDIN)
+
+
+def piped_bytes() -> bytes:
+    """What comes from standard input.
+
+    Raises
+    ------
+    OSError
+        When there is more of it than is read of a file.
+    """
+    stream = getattr(sys.stdin, "buffer", None)
+    found = stream.read(MOST + 1) if stream else b""
+    if len(found) > MOST:
+        raise OSError(errno.EFBIG, f"more than {MOST / 1e6:.0f} MB are not read", STDIN)
+    return bytes(found)
 
 
 @cache

@@ -32,6 +32,8 @@ INLINED = 100
 # Memory of LLVM [byte], and for each letter of a text: measured 30 MB, and 30 for each letter. It
 # ends the process where it gets none.
 OF_LLVM, PER_LETTER = 40_000_000, 60
+# Characters of a text that LLVM, which cannot be interrupted, compiles in less than 0.1 s.
+SHORT = 30_000
 
 
 def object_code(text: str) -> bytes:
@@ -85,8 +87,16 @@ def _compiled(text: str, level: int, passes_of: Callable[[Any], Any]) -> bytes:
     from adamslite.native.fatal import explained
 
     require_memory(OF_LLVM + PER_LETTER * len(text))
-    with _compiling, explained():
-        return _emitted(text, level, passes_of)
+
+    def compiled() -> bytes:
+        with _compiling, explained():
+            return _emitted(text, level, passes_of)
+
+    if len(text) < SHORT:
+        return compiled()
+    from adamslite.native.worker import interruptible  # which takes threads along
+
+    return interruptible(compiled)
 
 
 def _emitted(text: str, level: int, passes_of: Callable[[Any], Any]) -> bytes:

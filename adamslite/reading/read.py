@@ -28,7 +28,7 @@ from adamslite.language.diagnostics import DeckError, Diagnostic, Source
 from adamslite.language.file_name import is_file_name
 from adamslite.language.messages.ignoring import judged, without_ignored
 from adamslite.language.statement import Statement
-from adamslite.language.text import MOST, contents, decoded, text_of
+from adamslite.language.text import MOST, NamedText, contents, decoded, text_of
 from adamslite.reading.half_read import further_mistakes
 from adamslite.reading.numbers import Given as Values
 from adamslite.reading.numbers import edited
@@ -72,9 +72,10 @@ def read(
 
     given = bindings(user)
     text, path = _load(source)
+    name = source.name if isinstance(source, NamedText) else str(path or "<text>")
     if values:
-        text = edited(Source(text, str(path or "<text>")), path, values, given)
-    return read_by(Reading(Source(text, str(path or "<text>")), Names(), "deck"), path, given)
+        text = edited(Source(text, name), path, values, given)
+    return read_by(Reading(Source(text, name), Names(), "deck"), path, given)
 
 
 def read_by(reading: Reading, path: Path | None, given: Bindings) -> Deck:

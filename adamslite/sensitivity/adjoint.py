@@ -8,13 +8,16 @@ numbers of the equations at once: its effort does not grow with how many are ask
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from adamslite.analyses.run_options import within_memory
 from adamslite.analyses.simulation import explained
 from adamslite.equations.result_columns import columns
 from adamslite.errors import RunFailed, UsageError
+from adamslite.native.worker import Overspent, interruptible
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 from adamslite.sensitivity.adjoint_columns import Columns, Seed, weights_of
@@ -27,6 +30,7 @@ from adamslite.sensitivity.study import SENSED, Study
 from adamslite.sensitivity.taped import Taped
 
 if TYPE_CHECKING:
+    from adamslite.analyses.run_options import Budget
     from adamslite.analyses.subject import Subject
     from adamslite.deck.redefinition import Command
     from adamslite.equations.system import System
@@ -50,6 +54,11 @@ def gradient(
 ) -> Sensitivities:
     """Derivatives of measures of a deck, a model or kernels; see :func:`adamslite.gradient`."""
     study = Study(scene, commands, options)
+    with within_memory(study.memory):
+        return _swept(study, of, by)
+
+
+def _swept(study: Study, of: Iterable[str], by: Iterable[str] | str) -> Sensitivities:
     chain = Chain(study)
     named = chain.all() if by == ALL else study.named(by)
     if not named:
@@ -64,7 +73,7 @@ def gradient(
         if method not in SWEEPS:
             raise UsageError(ONLY.format(known=" and ".join(SWEEPS), method=method))
         begun = (not (session.assembled or session.speeds), bool(session.history.stretches))
-        made.update(_gradients(chain, system, SWEEPS[method], of, named, begun))
+        made.update(_gradients(chain, system, SWEEPS[method], of, named, begun, study.budget))
         return np.zeros(0)
 
     session.follow = follow
@@ -81,6 +90,7 @@ def gradient(
         tuple(n.name for n in named), np.array([n.value for n in named]), results,
         np.zeros((len(named), 0, 0)), made["measures"], made["values"], made["gradient"],
         session.notes,
+        stopped=made["stopped"],
     )  # fmt: skip
 
 
@@ -103,6 +113,7 @@ def _gradients(
     of: Iterable[str],
     named: list[Named],
     begun: tuple[bool, bool],
+    budget: Budget,
 ) -> dict[str, Any]:
     """The measures of a run that has just been made, and their derivatives; ``begun``: whether it
     starts as it is drawn, and whether another analysis came before.
@@ -121,10 +132,19 @@ def _gradients(
         seeds = {int(row): Seed(record[row]) for row in np.flatnonzero(weights)}
         for row, seed in seeds.items():
             places.weigh(seed, each.channel, float(weights[row]))
-        found.append(sweep(system).back(seeds))
+        try:
+            found.append(interruptible(partial(sweep(system).back, seeds), over=budget.over))
+        except Overspent:
+            break
+    gradient = np.full((len(measures), len(named)), np.nan)
+    for k, one in enumerate(found):
+        gradient[k] = chain.along(system, *begun, one, named)
+    numbers += [each.of(time, values[:, names.index(each.channel)]) for each in
+                measures[len(numbers):]]  # fmt: skip
     return {
         "time": time, "names": tuple(names[k] for k in kept),
         "columns": np.ascontiguousarray(values[:, kept]),
         "measures": tuple(map(str, measures)), "values": np.array(numbers),
-        "gradient": np.array([chain.along(system, *begun, each, named) for each in found]),
+        "gradient": gradient,
+        "stopped": Outcome.CPU_LIMIT.sentence if len(found) < len(measures) else "",
     }  # fmt: skip

@@ -31,6 +31,9 @@ class Sensitivities:
     errors : numpy.ndarray
         (np,) what derivatives of places and velocities are estimated to be off by, against the
         largest.
+    stopped : str
+        What has ended the work early; derivatives that are missing are not a number.  Empty when
+        all is done.
     """
 
     by: tuple[str, ...]
@@ -42,6 +45,7 @@ class Sensitivities:
     gradient: np.ndarray
     notes: Mapping[str, str]
     errors: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    stopped: str = ""
 
     @property
     def time(self) -> np.ndarray:

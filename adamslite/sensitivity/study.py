@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from adamslite.analyses.output_times import plan_of
-from adamslite.analyses.run_options import checked
+from adamslite.analyses.run_options import budget_of, checked, within_memory
 from adamslite.analyses.simulation import explained
 from adamslite.analyses.subject import deck_of, kernels_of, prepared_for
 from adamslite.equations.result_columns import columns
@@ -18,6 +18,7 @@ from adamslite.kernels.groups import Kernels
 from adamslite.language.diagnostics import DeckError
 from adamslite.model.model import PART
 from adamslite.model.reduction import MERGED
+from adamslite.native.worker import Overspent
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 from adamslite.sensitivity.directions import SHARE, STENCIL, Direction, Snapshot, direction
@@ -57,8 +58,9 @@ DOUBTFUL = 0.01
 PLANAR = True
 # Turns of a part by which its angles are differentiated.
 TURN = 1e-5
-# Numbers of derivatives that are held at a time.
-MOST_HELD = 40_000_000
+# Numbers of derivatives that are held at a time; and numbers of the deck that are followed at a
+# time where CPU is limited, so that there are some when it is spent.
+MOST_HELD, LIMITED = 40_000_000, 4
 
 
 class Study:
@@ -72,6 +74,7 @@ class Study:
     ) -> None:
         commands = tuple(commands)
         given = checked(options)
+        self.budget, self.memory = budget_of(given)
         end, steps = given.pop("end", None), given.pop("steps", None)
         self.flags = {{"integrator": "method"}.get(k, k): each for k, each in given.items()}
         self.plan = plan_of(deck_of(scene), commands, end, steps)
@@ -109,7 +112,7 @@ class Study:
         ]
 
     def session(self, kind: type[Session], kernels: Kernels) -> Any:
-        return kind(kernels, None, dict(self.flags), self.without)
+        return kind(kernels, None, dict(self.flags), self.without, budget=self.budget)
 
     def snapshot(self, kernels: Kernels) -> tuple[System, Snapshot]:
         """The system where the dynamic analysis begins, and its arrays.
@@ -248,6 +251,11 @@ def sensitivities(
 ) -> Sensitivities:
     """Derivatives of a deck, a model or kernels; see :func:`adamslite.sensitivities`."""
     study = Study(scene, commands, options)
+    with within_memory(study.memory):
+        return _worked_out(study, by, of)
+
+
+def _worked_out(study: Study, by: Iterable[str], of: Iterable[str]) -> Sensitivities:
     named = study.named(by)
     if not named:
         raise UsageError("derivatives by what? --by NAME; `adamslite names DECK` lists numbers")
@@ -263,14 +271,22 @@ def sensitivities(
         names, values = columns(system, record)
         measures, kept = asked(of, names) if of else ([], [*range(len(names))])
         lot = max(1, MOST_HELD // max(record.size, 1))
+        lot = lot if study.budget.cpu is None else min(lot, LIMITED)
         found = directions(system, not (session.assembled or session.speeds))
         curves: list[np.ndarray] = []
         errors: list[float] = []
         for at in range(0, len(found), lot):
-            along = followed(system, method, found[at : at + lot])
+            try:
+                along = followed(system, method, found[at : at + lot], study.budget)
+            except Overspent:
+                curves += [np.full((len(record), len(kept)), np.nan)] * (len(found) - at)
+                errors += [np.nan] * (len(found) - at)
+                made["stopped"] = Outcome.CPU_LIMIT.sentence
+                break
             curves += [_columns(system, record, each)[:, kept] for each in along.record]
             errors += along.errors.tolist()
             made["grazed"] = along.grazed
+        made.setdefault("grazed", 0)
         made.update(names=names, values=values, kept=kept, measures=measures, curves=curves)
         made["errors"] = np.array(errors)
         made["time"] = system.times.copy()
@@ -307,7 +323,7 @@ def _gathered(
     return Sensitivities(
         tuple(n.name for n in named), np.array([n.value for n in named]), results, curves,
         tuple(map(str, measures)), np.array([m.of(time, results[m.channel]) for m in measures]),
-        gradient, notes, made["errors"],
+        gradient, notes, made["errors"], made.get("stopped", ""),
     )  # fmt: skip
 
 

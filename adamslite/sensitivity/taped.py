@@ -20,6 +20,7 @@ from adamslite.integrators.bdf.history import room
 from adamslite.integrators.contract import AUDIT, DONE
 from adamslite.integrators.linalg.plan import TINY
 from adamslite.integrators.radau.history import KEPT_ROWS, KEPT_Z, Y_ROWS
+from adamslite.native.worker import interruptible
 from adamslite.results.outcomes import Outcome
 from adamslite.sensitivity.begin import ROWS
 from adamslite.sensitivity.contract import Forward
@@ -27,6 +28,7 @@ from adamslite.sensitivity.corrector import KEPT
 from adamslite.sensitivity.directions import Collected, Direction, Snapshot, tangent_groups
 
 if TYPE_CHECKING:
+    from adamslite.analyses.run_options import Budget
     from adamslite.equations.system import System
 
 #: By method: the native function that follows its tape.
@@ -229,13 +231,17 @@ def _kept(system: System, method: str) -> tuple[int, int, int]:
     return KEPT_ROWS * w, Y_ROWS * w, KEPT_Z * z
 
 
-def followed(system: System, method: str, found: Iterable[Direction]) -> Along:
+def followed(
+    system: System, method: str, found: Iterable[Direction], budget: Budget | None = None
+) -> Along:
     """Derivatives of the record along the tape.
 
     Raises
     ------
     UsageError
         When a step has none.
+    Overspent
+        When the CPU is spent before the end of the tape.
     """
     found = [*found]
     collected = Collected(system, found, tangent_groups(system))
@@ -266,7 +272,14 @@ def followed(system: System, method: str, found: Iterable[Direction]) -> Along:
         raise LeftPlane
     problem, plan = system.records()
     run = _native(FORMULAS[method])
-    code = run(problem.address, plan.address, collected.record.address, made.address)
+
+    # What native code may still use when it is left to itself.
+    held = (problem, plan, collected.record, made), system.tape.data
+
+    def along_the_tape() -> int:
+        return int(run(*(each.address for each in held[0])))
+
+    code = interruptible(along_the_tape, over=budget.over if budget else None)
     if code != DONE:
         raise UsageError("derivatives are not determined where the equations are singular")
     if _driven_out(system, collected, found):

@@ -128,12 +128,17 @@ def _pool(job: Job, workers: int, kind: str) -> Iterator[tuple[Executor, LotOf]]
     try:
         yield pool, _lot
     except BaseException:
-        processes = list((pool._processes or {}).values())
-        pool.shutdown(wait=False, cancel_futures=True)
-        for process in processes:
-            process.terminate()
+        end_now(pool)
         raise
     pool.shutdown()
+
+
+def end_now(pool: ProcessPoolExecutor) -> None:
+    """End the processes of workers, whatever they do."""
+    processes = list((pool._processes or {}).values())
+    pool.shutdown(wait=False, cancel_futures=True)
+    for process in processes:
+        process.terminate()
 
 
 def _context() -> multiprocessing.context.BaseContext:
@@ -143,10 +148,16 @@ def _context() -> multiprocessing.context.BaseContext:
 
 
 def _take(job: Job) -> None:
-    """A process begins: the first one decides what an interruption means."""
+    """A process begins."""
     global _job
     _job = job
+    follow_the_first()
+
+
+def follow_the_first() -> None:
+    """The first process decides what an interruption of this one means, and ends it."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
     end_with_the_first()
 
 

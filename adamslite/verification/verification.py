@@ -102,18 +102,25 @@ def verify(cases: Iterable[Case], run: Run | None = None, jobs: int = 1) -> Iter
         for group in decks:
             yield from judge_deck(group)
         return
-    with ProcessPoolExecutor(
+    from adamslite.sweeps.workers import end_now
+
+    pool = ProcessPoolExecutor(
         min(jobs, len(decks)), initializer=_begin, initargs=(notation.current(),)
-    ) as pool:
+    )
+    try:
         yield from chain.from_iterable(pool.map(judge_deck, decks))
+    except BaseException:
+        end_now(pool)
+        raise
+    pool.shutdown()
 
 
 def _begin(words: str) -> None:
     """A process begins: messages are written as in the first one, also where it is no fork."""
-    from adamslite.sweeps.workers import end_with_the_first
+    from adamslite.sweeps.workers import follow_the_first
 
     notation.use(words)
-    end_with_the_first()
+    follow_the_first()
 
 
 def solve_quietly(

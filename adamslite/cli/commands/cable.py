@@ -3,8 +3,8 @@
 SPEC.toml says what the cable is, where it goes and how good the answer has to be; the deck is
 written as plain statements that can be edited. What is not asked for by name is chosen: a linear
 model proposes, and runs of some models show which of them is the cheapest that is good enough.
-docs/reference/cable-command.md has every key. Exit code 3 when the description has mistakes;
-warnings alone do not count.
+`-` is a description from standard input. docs/reference/cable-command.md has every key. Exit code 3
+when the description has mistakes; warnings alone do not count.
 """
 
 import argparse
@@ -47,18 +47,20 @@ def run(args: argparse.Namespace) -> int:
         need_writable(output, [args.spec])
     # It takes a while to load.
     from adamslite.api.trials import described
-    from adamslite.language.text import MOST, contents
+    from adamslite.language.text import MOST, STDIN, contents, is_piped, piped_bytes
 
+    name = STDIN if is_piped(args.spec) else str(args.spec)
     try:
-        text = contents(args.spec, MOST).decode("utf-8-sig").replace("\r\n", "\n")
+        data = piped_bytes() if is_piped(args.spec) else contents(args.spec, MOST)
+        text = data.decode("utf-8-sig").replace("\r\n", "\n")
     except UnicodeDecodeError as fault:
-        raise FormatError(f"{args.spec} is not UTF-8 text: {fault.reason}") from None
-    found = described(text, str(args.spec), args.trial, SentenceProgress())
+        raise FormatError(f"{name} is not UTF-8 text: {fault.reason}") from None
+    found = described(text, name, args.trial, SentenceProgress())
     written, warnings = found.deck.text, found.deck.messages
     if warnings:
         sys.stderr.write(render(warnings) + "\n\n")
     if summary := found.summary:
-        sys.stderr.write(f"{args.spec}: {summary}\n")
+        sys.stderr.write(f"{name}: {summary}\n")
     if output:
         with whole_file(Path(output)) as stream:
             stream.write(written)

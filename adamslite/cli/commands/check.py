@@ -31,7 +31,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Print what there is to say; return the exit code."""
     from adamslite import kept_scene
+    from adamslite.language.text import is_piped
 
+    if is_piped(args.deck):
+        return _of_standard_input(args)
     beside = None if args.commands else kept_scene.command_file_beside(args.deck)
     about = ("check", args.format, str(beside))
     origin = (
@@ -51,4 +54,15 @@ def run(args: argparse.Namespace) -> int:
     sys.stdout.write(text)
     if origin and found.deck and not found.errors:
         kept_scene.keep_text(origin, text, found.deck, found.commands, *about)
+    return DECK_ERRORS if found.errors else DONE
+
+
+def _of_standard_input(args: argparse.Namespace) -> int:
+    """Of a deck that comes through a pipe nothing is kept."""
+    from adamslite.api.checks import check
+    from adamslite.language.messages.formats import FORMATS
+    from adamslite.language.text import piped
+
+    found = check(piped(), args.commands, args.user, args.values)
+    sys.stdout.write(str(found) if args.format == "text" else FORMATS[args.format](found))
     return DECK_ERRORS if found.errors else DONE

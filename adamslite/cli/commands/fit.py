@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 
 from adamslite.cli.commands.codes import DONE, OUTSIDE_TOLERANCE, STOPPED_EARLY
-from adamslite.run_flags import add_integration_flags, add_scene_flags, run_options
+from adamslite.run_flags import add_integration_flags, add_limit_flags, add_scene_flags, run_options
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -42,6 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add_scene_flags(parser)
     add_integration_flags(parser)
+    add_limit_flags(parser, "the best numbers by then are kept", "all runs together")
     parser.add_argument("--quiet", action="store_true", help="show no progress")
 
 
@@ -50,11 +51,11 @@ def run(args: argparse.Namespace) -> int:
     from adamslite.fitting.fit import Wanted, fit
     from adamslite.outputs.whole_files import need_writable
     from adamslite.progress import Progress, TalkingProgress
-    from adamslite.scene import load_scene
+    from adamslite.scene import load_scene, stem_of
     from adamslite.variation.decks import with_values
     from adamslite.verification.reference_file import read_reference
 
-    output = args.output or f"{args.deck.stem}.fitted.adm"
+    output = args.output or f"{stem_of(args.deck)}.fitted.adm"
     if args.plot:
         _need_figure(args.plot)
     scene = load_scene(args.deck, args.commands, args.user)

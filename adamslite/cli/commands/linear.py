@@ -13,7 +13,7 @@ import argparse
 import sys
 
 from adamslite.cli.commands.codes import DONE
-from adamslite.run_flags import add_deck, instant
+from adamslite.run_flags import add_deck, add_limit_flags, instant, run_options
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -22,6 +22,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--time", type=instant, metavar="T", help="linearise at this time")
     parser.add_argument("--rm", metavar="MARKER", help="marker of the body of the observer")
     parser.add_argument("-o", "--output", metavar="FILE", help="result file, .csv or .json")
+    add_limit_flags(parser, "modes that need more are not found", "the command")
 
 
 def run(args: argparse.Namespace) -> int:
@@ -41,7 +42,7 @@ def run(args: argparse.Namespace) -> int:
         sys.stderr.write(f"{scene.title}\n")
     if scene.warnings:
         sys.stderr.write(render(scene.warnings) + "\n\n")
-    seen = {} if args.rm is None else {"rm": args.rm}
+    seen = run_options(args) | ({} if args.rm is None else {"rm": args.rm})
     found = adamslite.linearize(scene.deck, commands=scene.commands, time=args.time, **seen)
     sys.stdout.write(mode_table(found))
     if args.output:

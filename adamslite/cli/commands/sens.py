@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from adamslite.cli.commands.codes import DONE, STOPPED_EARLY
-from adamslite.run_flags import add_integration_flags, add_scene_flags, run_options
+from adamslite.run_flags import add_integration_flags, add_limit_flags, add_scene_flags, run_options
 
 if TYPE_CHECKING:
     from adamslite.scene import Scene
@@ -43,6 +43,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-o", "--output", metavar="OUT", help="file of histories (.csv, .nc, ...)")
     add_scene_flags(parser)
     add_integration_flags(parser)
+    add_limit_flags(parser, "what is worked out by then is printed", "the command")
 
 
 def run(args: argparse.Namespace) -> int:
@@ -73,7 +74,9 @@ def run(args: argparse.Namespace) -> int:
         sys.stderr.write(f"{args.output}: histories of derivatives\n")
     elif not len(found.measures):
         sys.stderr.write("columns have histories of derivatives: -o OUT writes them\n")
-    return DONE
+    if found.stopped:
+        sys.stderr.write(f"adamslite: {found.stopped}\n")
+    return STOPPED_EARLY if found.stopped else DONE
 
 
 def _found(args: argparse.Namespace, scene: Scene, options: dict[str, Any]) -> Sensitivities:

@@ -7,14 +7,13 @@ help formats` lists them); `-o -` writes a table to standard output. What a run 
 seconds has so far is in OUT.part: --resume goes on from there. Beside the results LINEAR/EIGENSOL
 writes OUT.modes.csv, with COORDS and KENERGY OUT.shapes.csv and OUT.kinetic.csv, LINEAR/STATEMAT
 its FILE or OUT.states.json (matrices A, B, C, D), SAVE its FILE; --page an HTML file that shows how
-it moves. All the command says goes to standard error.
+it moves. All the command says goes to standard error. DECK may be `-`, standard input: its results
+are called stdin.csv, and it reads tables from the current directory and below.
 """
 
 import argparse
-import os
 import sys
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -33,9 +32,6 @@ if TYPE_CHECKING:
 #: What a file beside the results is, and its path.
 Written = tuple[str, Path]
 LINEARISED, PAGE = "linearised model", "page"
-
-#: Signals that end a run like Ctrl-C.
-ENDING = ("SIGTERM", "SIGHUP")
 
 #: What becomes of LINEAR commands then.
 UNWRITTEN = "not written: it goes beside the results, and they went to no file"
@@ -96,7 +92,6 @@ def run(args: argparse.Namespace) -> int:
     if not args.quiet:
         _tell_warnings(scene)
     journal = _journal(args, scene, output, part)
-    _end_by_signals()
     try:
         return _solved(args, scene, output, files, page, journal)
     except KeyboardInterrupt:
@@ -143,6 +138,7 @@ def _solved(
 def _resumed(args: argparse.Namespace) -> "PartFile | None":
     """The file of the run to go on with, whose arguments are put into `args`."""
     from adamslite.errors import UsageError
+    from adamslite.language.text import is_piped
 
     if args.resume is None and args.deck is None:
         raise UsageError("give the name of a deck, or --resume OUT.part")
@@ -150,6 +146,10 @@ def _resumed(args: argparse.Namespace) -> "PartFile | None":
         if args.trust:
             raise UsageError("--trust goes with --resume OUT.part")
         return None
+    if args.deck is not None and is_piped(args.deck):
+        raise UsageError(
+            "--resume reads the deck where the run had it; leave out '-', standard input"
+        )
     from adamslite.cli.commands.unfinished import resumed
 
     return resumed(args)
@@ -160,10 +160,13 @@ def _journal(
 ) -> "Journal | None":
     """Where the run is kept when it takes long; None where it cannot be resumed."""
     from adamslite.analyses.history import Journal
+    from adamslite.language.text import is_piped
     from adamslite.outputs.whole_files import same_file
 
     part = args.resume or Path(f"{output}.part")
     written = Path(output)
+    if is_piped(args.deck):  # nothing could read the deck again
+        return None
     if output == STDOUT or args.confirm or (written.exists() and not written.is_file()):
         return None
     if scene.deck.user.called or any(same_file(part, each) for each in scene.read):
@@ -200,29 +203,6 @@ def _keep(journal: "Journal") -> None:
     journal.close(keep=True)
     if journal.part:
         sys.stderr.write(f"adamslite: `adamslite solve --resume {journal.path}` goes on with it\n")
-
-
-def _end_by_signals() -> None:
-    """Let SIGTERM and SIGHUP end the run like Ctrl-C, once, in a process of its own."""
-    import signal
-    import threading
-
-    if threading.current_thread() is not threading.main_thread():
-        return
-    known = [getattr(signal, name) for name in ENDING if hasattr(signal, name)]
-
-    def end(*_: object) -> None:
-        for each in known:
-            signal.signal(each, signal.SIG_IGN)
-        for number in (1, 2):  # a terminal that has gone cannot be written to
-            with suppress(OSError):
-                if os.isatty(number):
-                    os.dup2(os.open(os.devnull, os.O_WRONLY), number)
-        raise KeyboardInterrupt
-
-    for each in known:
-        if signal.getsignal(each) is signal.SIG_DFL:
-            signal.signal(each, end)
 
 
 def _page(args: argparse.Namespace, scene: "Scene", output: str) -> Path | None:

@@ -71,10 +71,10 @@ def run(args: argparse.Namespace) -> int:
     """Carry the runs out and write them; return the exit code."""
     from adamslite.errors import UsageError
     from adamslite.progress import Progress, TalkingProgress
-    from adamslite.scene import load_scene
+    from adamslite.scene import load_scene, stem_of
     from adamslite.sweeps.sweep import Means, Wanted, sweep
 
-    output = Path(args.output or f"{args.deck.stem}.sweep.nc")
+    output = Path(args.output or f"{stem_of(args.deck)}.sweep.nc")
     if output.suffix.lower() != ".nc":
         raise UsageError(f"-o {output}: the file of a sweep ends in .nc")
     scene = load_scene(args.deck, args.commands, args.user, args.values)

@@ -12,11 +12,12 @@ import argparse
 import os
 import sys
 from collections.abc import Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from adamslite.cli.commands.codes import DONE, OUTSIDE_TOLERANCE
-from adamslite.run_flags import add_folder_flag, count, positive
+from adamslite.run_flags import add_folder_flag, add_limit_flags, count, positive, run_options
 
 if TYPE_CHECKING:
     from adamslite.results.results import Results
@@ -35,6 +36,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="largest share of a tolerance that may be used (default: 1, all of it)",
     )  # fmt: skip
     add_folder_flag(parser)
+    add_limit_flags(parser, "a reference whose run reaches one is not met", "each run")
 
 
 def run(args: argparse.Namespace) -> int:
@@ -49,7 +51,8 @@ def run(args: argparse.Namespace) -> int:
         raise UsageError(f"there is no deck with a reference.csv in {', '.join(map(str, paths))}")
     width = max(len(case.name) for case in cases)
     verdicts = []
-    for verdict in verify(cases, solve_tellingly, args.jobs):
+    run = partial(solve_tellingly, limits=run_options(args))
+    for verdict in verify(cases, run, args.jobs):
         verdicts.append(verdict)
         mark = "ok  " if _meets(verdict, args.share) else "FAIL"
         share = f"{'':5}" if verdict.share is None else f"{verdict.share:5.2f}"
@@ -60,12 +63,14 @@ def run(args: argparse.Namespace) -> int:
     return DONE if met else OUTSIDE_TOLERANCE
 
 
-def solve_tellingly(deck: Path, options: Mapping[str, Any]) -> Results:
-    """Solve a deck as `verify` does, and report what takes long."""
+def solve_tellingly(
+    deck: Path, options: Mapping[str, Any], limits: Mapping[str, Any] | None = None
+) -> Results:
+    """Solve a deck as `verify` does, within limits, and report what takes long."""
     from adamslite.progress import SentenceProgress
     from adamslite.verification.verification import solve_quietly
 
-    return solve_quietly(deck, options, SentenceProgress())
+    return solve_quietly(deck, {**options, **(limits or {})}, SentenceProgress())
 
 
 def _meets(verdict: Verdict, share: float) -> bool:

@@ -249,7 +249,7 @@ def signature(L: Plan, LV: Reals, pivots: Ints, work: Reals, found: Reals, late:
         return pivots[L.place.size]
     if n == 1:
         only = negative_pivots(LV, 0, L.size[0], work, found, 0, late)
-        return only if invert(LV, 0, L.size[0], pivots, 0, work) else -1
+        return only if lu_dense(LV, 0, L.size[0], pivots, 0) else -1
     at, count = 0, 0
     for k in range(n):
         s, o = L.size[k], L.diagonal[k]

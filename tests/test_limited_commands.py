@@ -1,0 +1,151 @@
+"""Limits of CPU, steps and memory in commands that are more than one run."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from fit_scenes import SWINGS, K, X, table
+
+import adamslite as al
+from adamslite import Outcome
+from adamslite.cli.main import main
+from adamslite.errors import RunFailed
+from adamslite.native import worker
+from adamslite.sensitivity import adjoint, study
+
+#: As the command line and Python name them.
+STEPS, CPU = r"as --max-steps allows|as max_steps= allows", r"--cpu-limit allows|cpu_limit= allows"
+TIMES = np.linspace(0.0, 2.0, 41)
+
+
+def measured() -> Path:
+    """The swing of a mass on a spring of K=260, which is 200 in the deck."""
+    run = al.simulate(al.with_values(al.read(SWINGS), {K: 260.0}), steps=40)
+    return table(TIMES, x=run[X])
+
+
+def test_a_fit_that_runs_out_of_steps_has_its_best_numbers(tmp_path, monkeypatch, capsys) -> None:
+    """More steps lead nearer, and a limit that is not reached changes nothing."""
+    monkeypatch.chdir(tmp_path)
+    Path("swings.adm").write_text(SWINGS)
+    whole = al.fit(SWINGS, measured(), [K])
+    assert whole[K] == pytest.approx(260.0, rel=1e-4) and not whole.stopped
+    off = []
+    for most in (2_000, 6_000, 10**9):
+        found = al.fit(SWINGS, measured(), [K], max_steps=most)
+        off.append(abs(found[K] - 260.0))
+        assert bool(found.stopped) == found.limited == (most < 10**9)
+        assert not found.stopped or (
+            re.search(STEPS, found.stopped) and np.isnan(found.errors).all()
+        )
+        assert found.results.summary["outcome"] == "DONE"
+    assert found[K] == whole[K] and off[0] >= off[1] >= off[2]
+    words = ["fit", "swings.adm", str(measured()), "--by", K, "--max-steps", "6000", "--quiet"]
+    assert main(words) == 4
+    told = "".join(capsys.readouterr())
+    assert re.search(STEPS, told) and "not worked out" in told
+    assert al.read("swings.fitted.adm").values is not None
+
+
+def test_an_interrupted_fit_has_its_best_numbers(monkeypatch) -> None:
+    from adamslite.fitting.curves import Runs
+
+    usual, calls = Runs.results, []
+
+    def results(self, values, **options):
+        calls.append(values)
+        if len(calls) > 12:
+            monkeypatch.undo()
+            raise KeyboardInterrupt
+        return usual(self, values, **options)
+
+    monkeypatch.setattr(Runs, "results", results)
+    found = al.fit(SWINGS, measured(), [K])
+    assert found.stopped == Outcome.INTERRUPTED.sentence and found.limited
+    assert found[K] in [each[0] for each in calls]
+
+
+def test_a_fit_whose_first_run_is_too_much_says_so() -> None:
+    with pytest.raises(RunFailed, match=STEPS):
+        al.fit(SWINGS, measured(), [K], max_steps=5)
+
+
+def spent(monkeypatch: pytest.MonkeyPatch, module, before: int) -> None:
+    """Let the CPU be spent after so many calls of what works derivatives out."""
+    name = "followed" if module is study else "interruptible"
+    usual, calls = getattr(module, name), []
+
+    def limited(*words, **options):
+        calls.append(words)
+        if len(calls) > before:
+            raise worker.Overspent
+        return usual(*words, **options)
+
+    monkeypatch.setattr(module, name, limited)
+
+
+def test_derivatives_that_are_worked_out_are_kept(monkeypatch, tmp_path, capsys) -> None:
+    """Here two numbers of three, one at a time."""
+    by = ["SPRINGDAMPER/1.K", "SPRINGDAMPER/1.C", "SPRINGDAMPER/1.LENGTH"]
+    of, run = ["POINT_MASS/2.x@end"], {"end": 0.5, "steps": 5}
+    whole = al.sensitivities(SWINGS, by, of, **run)
+    monkeypatch.setattr(study, "LIMITED", 1)
+    spent(monkeypatch, study, 2)
+    found = al.sensitivities(SWINGS, by, of, **run, cpu_limit=1e6)
+    assert re.search(CPU, found.stopped) and not whole.stopped
+    np.testing.assert_allclose(found.gradient[0, :2], whole.gradient[0, :2], rtol=1e-9)
+    assert np.isnan(found.gradient[0, 2]) and np.isnan(found.curves[2]).all()
+    assert (found.values == whole.values).all()
+    (tmp_path / "swings.adm").write_text(SWINGS)
+    words = ["sens", str(tmp_path / "swings.adm"), "--of", *of, "--by", *by, "--cpu-limit", "1e6"]
+    assert main([*words, "--end", "0.5", "--steps", "5"]) == 4
+    out, told = capsys.readouterr()
+    assert "nan" in out and re.search(CPU, told)
+
+
+def test_measures_whose_gradient_is_found_are_kept(monkeypatch) -> None:
+    of, run = ["POINT_MASS/2.x@end", "max POINT_MASS/2.x"], {"end": 0.5, "steps": 5}
+    whole = al.gradient(SWINGS, of, [K], **run)
+    spent(monkeypatch, adjoint, 1)
+    found = al.gradient(SWINGS, of, [K], **run, cpu_limit=1e6)
+    assert re.search(CPU, found.stopped) and (found.values == whole.values).all()
+    assert found.gradient[0, 0] == whole.gradient[0, 0] and np.isnan(found.gradient[1, 0])
+
+
+@pytest.mark.parametrize("work", [al.sensitivities, al.gradient])
+def test_derivatives_need_a_run_that_reaches_its_end(work) -> None:
+    words = {"by": [K], "of": ["POINT_MASS/2.x@end"], "max_steps": 5}
+    with pytest.raises(RunFailed, match=STEPS):
+        work(SWINGS, **words)
+
+
+@pytest.mark.parametrize(
+    ("flag", "said"), [("--cpu-limit=1e-4", CPU), ("--max-steps=3", STEPS)], ids=["cpu", "steps"]
+)
+@pytest.mark.parametrize("command", ["linear", "sens"])
+def test_a_command_that_reaches_a_limit_ends_by_name(
+    tmp_path: Path, capsys, command: str, flag: str, said: str
+) -> None:
+    deck = tmp_path / "swings.adm"
+    deck.write_text(SWINGS)
+    more = ["--of", "POINT_MASS/2.x@end", "--by", K] if command == "sens" else ["--time", "1"]
+    assert main([command, str(deck), flag, *more]) == 4
+    assert re.search(said, capsys.readouterr().err)
+
+
+def test_modes_that_take_too_long_are_not_found(monkeypatch) -> None:
+    def late(call, stop=None, over=None):
+        raise worker.Overspent
+
+    monkeypatch.setattr("adamslite.analyses.simulation.interruptible", late)
+    with pytest.raises(RunFailed, match=CPU):
+        al.linearize(SWINGS, cpu_limit=1e6)
+
+
+def test_a_reference_whose_run_reaches_a_limit_is_not_met(capsys) -> None:
+    deck = Path(__file__).parents[1] / "decks/hanging-mass"
+    assert main(["verify", str(deck), "--max-steps", "10"]) == 1
+    assert "STEP_LIMIT" in capsys.readouterr().out
