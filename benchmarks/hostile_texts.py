@@ -124,6 +124,9 @@ CHARACTERS = {
     "marks of byte order": _again("\ufeff"),
     "UTF-16": Kind("", "MARKER/3, PART=2, ZZZ=1 ", encoding="utf-16"),
     "letters and slashes": _again("A/"),
+    "returns and ends of lines": _again(_words("a,", "b\r", "c\r\n", "d\n\r")),
+    "quotes that do not close": _again(_words('"a b\n', "c", '"')),
+    "commas and blanks": _again(", ,\t,"),
     "all signs": _again(_words(*",\\()[]=/:;*&!\"$^+-", "a", "1", "{{", "}}")),
 }  # fmt: skip
 
@@ -154,6 +157,15 @@ ARGUMENTS = {
     "components of a request": Kind("REQUEST/1, F1=1", _words("\\ F{0}=TIME")),
     "comments in a statement": Kind("MARKER/3, PART=2", " ! comment\n", lines=" ! other\n, "),
     "continued by ampersands": Kind("MARKER/3, PART=2", " &\n"),
+    "continued by ampersands and commas": _argument(" &\n, QP=1"),
+    "tabs between words": _argument(",\tQP\t=\t1"),
+    "NULs in a statement": _argument(", QP=\0"),
+    "long names of arguments": _argument(lambda n: f", {'Z' * 1000}{n}=3"),
+    "numbers with signs": Kind("ARRAY/1, IC, NUMBERS=1", ", -1D-3"),
+    "brackets in values": _argument(", QP=((1, 2), [3])"),
+    "a list of markers that are missing": Kind(
+        "COUPLER/1, JOINTS=1", lambda n: f", {n + 5000}"
+    ),
     "a matrix": Kind("MATRIX/1, FULL, ROWS=1, COLUMNS=100, VALUES=1", ", 1"),
 }  # fmt: skip
 
@@ -187,6 +199,14 @@ EXPRESSIONS = {
     "a long exponent": _expression("1", head="1E"),
     "a derivative of a name": _expression("+VARVAL(d(x)/dt)"),
     "numbers in degrees": _expression("+9D"),
+    "exponents or degrees": _expression("+9D+2"),
+    "brackets inside brackets": _expression("+((((((1))))))"),
+    "brackets of other kinds inside each other": _expression("+([(a)])"),
+    "branches of branches": _expression("IF(", head=""),
+    "calls of calls": _expression("+SIN(SIN(SIN(TIME)))"),
+    "quotes in an expression": _expression('+"a"'),
+    "names of many letters in an expression": _expression("a", head="1+"),
+    "unlike brackets": _expression("+(1]"),
 }  # fmt: skip
 
 #: Many statements.
@@ -256,6 +276,24 @@ STATEMENTS = {
     "motions": _statements(lambda n: f"MOTION/{n + 9}, JOINT=9, FUNCTION=TIME"),
     "couplers": _statements(lambda n: f"COUPLER/{n + 9}, JOINTS=1,2, TYPE=T:T, SCALES=1,2"),
     "differences of time": _statements(lambda n: f"VARIABLE/{n + 9}, FUNCTION=DELAY(TIME, 1, 0)"),
+    "parts of the same id": _statements("PART/9, MASS=1"),
+    "strings": _statements(lambda n: f'STRING/{n + 9}, STRING="text {n}"'),
+    "strings that do not end": _statements(lambda n: f'STRING/{n + 9}, STRING="text'),
+    "names of nearly one spelling": _statements(
+        _words("MARKER/aaaa{0}bbbb, PART=2", "REQUEST/{0}9, F2=DX(aaaa{0}bbbc, 1)")
+    ),
+    "variables of nearly one spelling": _statements(
+        _words("VARIABLE/aaaa{0}bbbb, FUNCTION=1", "VARIABLE/c{0}, FUNCTION=aaaa{0}bbbc")
+    ),
+    "arguments of nearly one spelling": _statements(lambda n: f"MARKER/{n + 9}, PAART{n}=2"),
+    "joints of markers that are missing": _statements(
+        lambda n: f"JOINT/{n + 9}, FIXED, I={n + 5000}, J={n + 5001}"
+    ),
+    "long names": _statements(lambda n: f"MARKER/{'m' * 1000}{n}, PART={'p' * 1000}{n}"),
+    "splines of one point": _statements(lambda n: f"SPLINE/{n + 9}, X=1, Y=1"),
+    "exponents in many statements": _statements(lambda n: f"VARIABLE/{n + 9}, FUNCTION=9D+2"),
+    "states": _statements(lambda n: f"DIFF/{n + 9}, IC=1, FUNCTION=DIF({n + 9})"),
+    "ends": Kind("", "END", lines="\n"),
     "graphics": _statements(lambda n: f"GRAPHICS/{n + 9}, CYLINDER, CM=2, LENGTH=1, RADIUS=1"),
 }  # fmt: skip
 
@@ -264,6 +302,11 @@ BYTES: dict[str, Callable[[int], bytes]] = {
     "mark and nothing": lambda size: BOM_UTF8 * (size // len(BOM_UTF8)),
     "every byte": lambda size: bytes(range(256)) * (size // 256),
     "half a UTF-16 text": lambda size: b"\xff\xfe" + b"\0\xd8" * (size // 2),
+    "UTF-16 and a byte": lambda size: (
+        KINDS["markers"].text(size // 2, True).encode("utf-16") + b"a"
+    ),
+    "a mark behind marks": lambda size: BOM_UTF8 * 3 + KINDS["markers"].data(size, True),
+    "Latin-1": lambda size: b"\xe4\xf6 \n" * (size // 4),
     "odd UTF-16": lambda size: b"\xff\xfe" + b"a" * (size // 2 * 2 + 1),
 }
 """Files that are no text."""

@@ -23,6 +23,7 @@ from pathlib import Path
 from time import process_time
 from typing import NamedTuple
 
+from benchmarks.hostile_files import FILES
 from benchmarks.hostile_texts import BODIES, BYTES, KINDS
 
 LINES = {"one": False, "many": True}
@@ -105,6 +106,20 @@ def _names(path: Path) -> int:
     return _command_line("names")(path)
 
 
+def _results(path: Path) -> int:
+    """As a file of results of its suffix."""
+    from adamslite.errors import FormatError
+    from adamslite.results.formats import format_of
+
+    read = format_of(path, to_read=True).read
+    assert read is not None
+    try:
+        read(path)
+    except FormatError as fault:
+        str(fault)
+    return 0
+
+
 WAYS: dict[str, Callable[[Path], int]] = {
     "check": _command_line("check"),
     "json": _command_line("check", "--format=json"),
@@ -114,6 +129,7 @@ WAYS: dict[str, Callable[[Path], int]] = {
     "names": _names,
     "fmt": _command_line("fmt", "--check"),
     "cable": _command_line("cable", "--no-trial"),
+    "results": _results,
     "diff": lambda path: _command_line("diff", str(path))(path),
 }
 
@@ -122,8 +138,11 @@ def measured(way: str, path: Path) -> Cost:
     """One way on a file, in this process."""
     from benchmarks.memory import peak
 
-    small = path.parent / "small.adm"
-    small.write_text(BODIES)
+    small = path.parent / f"small{path.suffix}"
+    kind = next(
+        (each for each in FILES.values() if (each.way, each.suffix) == (way, path.suffix)), None
+    )
+    small.write_bytes(kind.data(1000) if kind else BODIES.encode())
     out, err = StringIO(), StringIO()
     with redirect_stdout(out), redirect_stderr(err):
         WAYS[way](small)
@@ -140,6 +159,8 @@ def measured(way: str, path: Path) -> Cost:
 def text_of(case: Case) -> bytes:
     """The bytes of the file of a case."""
     size = int(case.size * MEGABYTE)
+    if case.kind in FILES:
+        return FILES[case.kind].data(size)
     if case.kind in BYTES:
         return BYTES[case.kind](size)
     return KINDS[case.kind].data(size, LINES[case.lines])
@@ -155,6 +176,7 @@ def cost(case: Case, cpu: int, memory: int) -> Cost:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "cable.toml" if case.way == "cable" else "deck.adm")
         path = path.with_suffix(".csv") if case.way == "diff" else path
+        path = path.with_suffix(FILES[case.kind].suffix) if case.kind in FILES else path
         path.write_bytes(text_of(case))
         done = subprocess.run(
             [sys.executable, "-m", "benchmarks.reading", "--file", case.way, str(path)],
@@ -202,10 +224,14 @@ def told(name: str, found: list[tuple[float, Cost]], args: argparse.Namespace) -
 
 def cases(args: argparse.Namespace) -> Iterator[tuple[str, str, str]]:
     """What the command line requests."""
-    wanted = [k for k in (*KINDS, *BYTES) if not args.kind or any(w in k for w in args.kind)]
+    every = (*KINDS, *BYTES, *FILES)
+    wanted = [kind for kind in every if not args.kind or any(word in kind for word in args.kind)]
     for way, kind, lines in product(args.way, wanted, args.lines):
-        if kind in KINDS or lines == args.lines[0]:
+        if kind in KINDS or (kind in BYTES and lines == args.lines[0]):
             yield way, kind, lines
+    for kind in wanted if args.files else ():
+        if kind in FILES:
+            yield FILES[kind].way, kind, args.lines[0]
 
 
 def arguments(argv: Iterable[str] | None = None) -> argparse.Namespace:
@@ -214,6 +240,9 @@ def arguments(argv: Iterable[str] | None = None) -> argparse.Namespace:
     parser.add_argument("--file", nargs=2, metavar=("WAY", "FILE"), help="one file, in here")
     parser.add_argument("--way", nargs="+", choices=WAYS, default=["check"])
     parser.add_argument("--kind", nargs="+", help="kinds with one of these in their name")
+    parser.add_argument(
+        "--files", action="store_true", help="also command files, descriptions and results"
+    )
     parser.add_argument("--lines", nargs="+", choices=LINES, default=list(LINES))
     parser.add_argument("--sizes", nargs="+", type=float, default=[0.25, 0.5, 1.0], metavar="MB")
     parser.add_argument("--cpu", type=int, default=20, help="CPU [s] that a text may take (20)")

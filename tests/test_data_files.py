@@ -85,6 +85,7 @@ def test_a_file_that_gives_no_points(tmp_path: Path, arguments: str, expected: s
     ("table", "expected"),
     [
         ("", "it is empty"),
+        ('"' + "x" * 200_000 + "\n", "it cannot be read: field larger than field limit (131072)"),
         ("x,y\n", "it has 0 rows, and 4 are needed"),
         ("0,1\n1,2\n2,3\n", "it has 3 rows, and 4 are needed"),
         ("0,1\n1,2\n2,3,4\n3,4\n", "line 3 has 3 columns, those before it 2"),

@@ -20,7 +20,10 @@ from adamslite.reading.read import read, read_commands
 
 WHOLE = ("no-run", *NEEDLESS)
 """What is known only when deck and commands have been read, or is reported by `check` alone."""
-LONG = ("deck-too-large", "expression-too-large", "expression-too-long", "more-messages")
+LONG = (
+    "changes-not-checked", "deck-too-large", "expression-too-large", "expression-too-long",
+    "more-messages",
+)  # fmt: skip
 """They have no short example, see test_hostile_texts."""
 BROKEN = [
     (code, deck)

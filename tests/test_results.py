@@ -73,6 +73,7 @@ def test_names_with_commas_are_quoted(tmp_path: Path) -> None:
         ("t,a\n0,1\n", ":1: the header row must start with 'time', not 't'"),
         ("time;a\n0;1,5\n", "not 'time;a'; commas separate columns, and decimals have points"),
         ("time\ta\n0\t1\n", "; commas separate columns"),
+        ('time,"' + "a" * 200_000 + "\n0,1\n", ":1: field larger than field limit"),
         ("# c\ntime,a,A\n0,1,2\n", ":2: the column 'a' is there twice"),
         ("time,a\n0,1\n1\n", ":3: 1 values where the header has 2 columns"),
         ("time,a\n0,1,2\n", ":2: 3 values where the header has 2 columns"),

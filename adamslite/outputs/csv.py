@@ -132,7 +132,10 @@ def _key_and_value(text: str) -> tuple[str, str]:
 
 def _header(line: str, place: str) -> tuple[tuple[str, ...], dict[str, str]]:
     """Names of columns, and the units of those that have one in brackets."""
-    words = [name.strip() for name in next(csv.reader(io.StringIO(line)))]
+    try:
+        words = [name.strip() for name in next(csv.reader(io.StringIO(line)))]
+    except csv.Error as fault:
+        raise FormatError(f"{place}: {fault}") from None
     found = [UNIT.fullmatch(word) for word in words]
     pairs = [(m[1], m[2].strip()) if m else (w, "") for w, m in zip(words, found, strict=True)]
     names = tuple(name for name, _ in pairs)

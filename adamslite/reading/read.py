@@ -21,6 +21,7 @@ from adamslite.deck.deck import ANALYSES, Deck
 from adamslite.deck.named_places import with_named
 from adamslite.deck.names import Names
 from adamslite.deck.redefinition import Command, Redefinition
+from adamslite.deck.statement_diagnostics import diagnose
 from adamslite.deck.user_bindings import Bindings, Given, bindings
 from adamslite.elements.file import File
 from adamslite.gc_pause import without_collection
@@ -34,6 +35,12 @@ from adamslite.reading.numbers import Given as Values
 from adamslite.reading.numbers import edited
 from adamslite.reading.statement_reader import Reading
 from adamslite.reading.unjudged import bound, unjudged
+
+# Work for finding out what commands make of a deck: so many statements are judged by all rules,
+# about.  A change of one statement counts a fifth of the deck.
+MOST_JUDGED = 100_000
+# What rules take without any statement, as statements.
+LEAST_JUDGED = 20
 
 
 def read(
@@ -127,14 +134,20 @@ def _caused(deck: Deck, commands: Iterable[Command]) -> list[Diagnostic]:
     known = set(apply(RULES, deck))
     found: dict[Diagnostic, None] = {}
     unchecked = started = False
+    left = float(MOST_JUDGED)
     for command in (*commands, None):
+        cost = LEAST_JUDGED + len(deck.own)
         if isinstance(command, Redefinition):
+            left -= cost / 5
+            if left < 0:
+                return [*found, diagnose(command, "changes-not-checked")]
             deck, unchecked = deck.redefined(command), True
             found |= dict.fromkeys(fixed_lists(command))
             if started:
                 found |= dict.fromkeys(late_start_values(command))
                 found |= dict.fromkeys(late_start_numbers(deck, command))
         elif unchecked and (command is None or command.keyword in ANALYSES):
+            left -= cost
             found |= dict.fromkeys(each for each in apply(RULES, deck) if each not in known)
             unchecked = False
         started = started or getattr(command, "keyword", "") in ANALYSES

@@ -2,7 +2,8 @@
 
 from adamslite.cables.description.surroundings_messages import SURROUNDINGS
 from adamslite.cables.description.toml_places import Path, Places
-from adamslite.language.diagnostics import WARNING, Diagnostic
+from adamslite.language.diagnostics import SEVERITIES, WARNING, Diagnostic, LeftOut
+from adamslite.language.likeness import Guesses
 from adamslite.language.messages.entry import Message
 
 #: Sizes of numbers whose products of several are numbers as well, in any units.
@@ -300,12 +301,19 @@ def quoted(value: object) -> str:
     return text if len(text) <= LONGEST else f"{text[:LONGEST]}..."
 
 
+#: Diagnostics of a description that are kept; of the others those whose code is new.
+MOST = 1000
+
+
 class Faults:
     """Collects the diagnostics of one description."""
 
     def __init__(self, places: Places) -> None:
         self.places = places
+        self.guesses = Guesses()
+        #: The last one counts those that are not kept.
         self.found: list[Diagnostic] = []
+        self.codes: set[str] = set()
         #: Tables of the stations, where these are not in the order of the file.
         self.tables: list[int] = []
         #: Number of the table of the cable, where there are several.
@@ -314,7 +322,7 @@ class Faults:
     def of_cable(self, k: int) -> "Faults":
         """The same diagnostics, for paths of cable k of several."""
         own = Faults(self.places)
-        own.found, own.cable = self.found, k
+        own.found, own.codes, own.cable, own.guesses = self.found, self.codes, k, self.guesses
         return own
 
     def add(self, code: str, path: Path, **words: object) -> None:
@@ -323,11 +331,26 @@ class Faults:
         table."""
         within = words.pop("within", None)
         at = within if isinstance(within, tuple) else ("", 0)
+        if len(self.found) >= MOST and code in self.codes:
+            self._count(MESSAGES[code].severity)
+            return
+        self.codes.add(code)
         message, span = MESSAGES[code], self.places.span(self._written(path), at)
         hint = str(words.pop("hint", "") or message.hint.format(**words))
         line, column = self.places.source.quote(span)
         text = message.sentence.format(**words)
-        self.found.append(Diagnostic(code, message.severity, text, span, hint, line, column))
+        found = Diagnostic(code, message.severity, text, span, hint, line, column)
+        counted = isinstance((self.found or [None])[-1], LeftOut)
+        self.found.insert(len(self.found) - counted, found)
+
+    def _count(self, severity: str) -> None:
+        """One more that is not kept."""
+        last = self.found[-1]
+        numbers = [int(each == severity) for each in SEVERITIES]
+        if isinstance(last, LeftOut):
+            self.found.pop()
+            numbers = [a + b for a, b in zip(numbers, last.numbers, strict=True)]
+        self.found.append(LeftOut.of(numbers))
 
     def _written(self, path: Path) -> Path:
         """The same key of the table that describes a station or the cable."""
@@ -342,6 +365,7 @@ class Faults:
         """The same so far, for messages of its own."""
         other = Faults(self.places)
         other.found, other.tables, other.cable = list(self.found), self.tables, self.cable
+        other.codes = set(self.codes)
         return other
 
     @property

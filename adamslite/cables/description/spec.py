@@ -220,12 +220,10 @@ def _table(
     faults: Faults, data: Toml, rules: Rules, path: Path, also: tuple[str, ...] = ()
 ) -> Toml:
     """The values of a table, checked; those of keys that are not written."""
-    from adamslite.language.likeness import did_you_mean
-
     for key in data:
         if key not in rules:
             known = [*rules, *also]
-            close = did_you_mean(key, known)
+            close = faults.guesses.meant(key, " ".join(known), known.copy)
             for name in known:
                 close = close.replace(name.upper(), name)
             faults.add("unknown-key", (*path, key), word=key, known=", ".join(known), hint=close)

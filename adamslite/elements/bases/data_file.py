@@ -94,7 +94,10 @@ def _table(path: Path, time: int, size: int) -> tuple[tuple[str, ...], tuple[Col
     written = [(n, line) for n, line in enumerate(lines, 1) if line.strip() and line[0] != "#"]
     if not written:
         raise UnusableFile("it is empty")
-    first = [cell.strip() for cell in next(csv.reader([written[0][1]]))]
+    try:
+        first = [cell.strip() for cell in next(csv.reader([written[0][1]]))]
+    except csv.Error as fault:
+        raise UnusableFile(f"it cannot be read: {fault}") from None
     names = () if _is_number(first[0]) else tuple(first)
     rows = [_row(line, number, len(first)) for number, line in written[bool(names) :]]
     return names, tuple(zip(*rows, strict=True)) or ((),) * len(first)

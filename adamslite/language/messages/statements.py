@@ -10,6 +10,11 @@ STATEMENTS: dict[str, Message] = {
         "there is more to say than the {most} messages that are kept: {listed}",
         "correct what comes first, and check again",
     ),
+    "changes-not-checked": Message(
+        "what this change and those behind it make of the deck is not checked: there are too many",
+        "check the command file in parts",
+        severity=WARNING,
+    ),
     "missing-title": Message(
         "the deck begins with {word} instead of a title; it is read as a statement",
         "put a title line above it: ADAMS takes the first line as the title and does not read it",
