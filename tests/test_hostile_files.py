@@ -1,4 +1,4 @@
-"""Hostile command files, descriptions and results are read in little work; counts, never seconds."""
+"""Hostile command files, descriptions and results are read in little work; counts, no seconds."""
 
 from importlib import import_module as module
 
