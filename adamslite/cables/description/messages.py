@@ -340,7 +340,7 @@ class Faults:
         line, column = self.places.source.quote(span)
         text = message.sentence.format(**words)
         found = Diagnostic(code, message.severity, text, span, hint, line, column)
-        counted = isinstance((self.found or [None])[-1], LeftOut)
+        counted = bool(self.found) and isinstance(self.found[-1], LeftOut)
         self.found.insert(len(self.found) - counted, found)
 
     def _count(self, severity: str) -> None:
