@@ -155,6 +155,12 @@ def test_flags_of_a_run_do_not_touch_what_is_kept(deck: Path, counted: Counted) 
     assert solve(deck, "--confirm") == plain
 
 
+def test_an_audit_finds_no_kernels_without_its_own(deck: Path, counted: Counted) -> None:
+    """An audit merges no parts; a run that merges none has the same model and fewer kernels."""
+    plain = solve(deck, "--no-reduction", "fixed")
+    assert solve(deck, "--audit") == plain and counted.compiled == 2
+
+
 # ---- never what another would -------------------------------------------------------------------
 
 
