@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from test_unfinished_runs import box, chain, pendulum
+from unfinished_scenes import box, chain, pendulum
 
 import adamslite as al
 from adamslite.analyses import checkpoint, dynamic, history

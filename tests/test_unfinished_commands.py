@@ -10,8 +10,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from test_unfinished_runs import pendulum, written
 from unfinished_runs import OFTEN, command, solved
+from unfinished_scenes import pendulum, written
 
 from adamslite.analyses.checkpoint import begin
 from adamslite.caching import secret

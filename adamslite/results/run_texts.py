@@ -11,7 +11,7 @@
     units               of force, mass, length and time
     integrator          method, formulation, ERROR
     outcome, message    how the run ended, and why it ended early
-    summary             counters of the run (JSON)
+    summary             counters of the run (JSON); no CPU: the same run gives the same bytes
     comments            the comment lines of a .csv (JSON)
     linear              what LINEAR commands found (JSON, arrays in base64)
 
@@ -37,6 +37,8 @@ from adamslite.results.untrusted import from_json
 if TYPE_CHECKING:
     from adamslite.results.results import Results
 
+#: What of the summary differs from run to run.
+CLOCKED = ("setup_cpu_s", "solve_cpu_s")
 #: A binding of numbers. One of a function is not taken from a file, which may come from others: it
 #: would have a module loaded.
 NUMBERS = re.compile(r"[^=]+=[-+0-9.,eEdD\s]+")
@@ -59,11 +61,16 @@ def attributes(results: Results) -> dict[str, str]:
         "integrator": meta.get("integrator", ""),
         "outcome": results.outcome.name,
         "message": results.message,
-        "summary": json.dumps(dict(results.summary), default=_plain) if results.summary else "",
+        "summary": _summary(results),
         "comments": json.dumps(dict(meta)) if meta else "",
         "linear": _linear(results),
     }
     return {name: text for name, text in found.items() if text}
+
+
+def _summary(results: Results) -> str:
+    counters = {name: each for name, each in results.summary.items() if name not in CLOCKED}
+    return json.dumps(counters, default=_plain) if counters else ""
 
 
 def _tables(source: RunSource | None) -> str:
