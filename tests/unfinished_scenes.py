@@ -66,6 +66,12 @@ def chain(end: float, steps: int) -> str:
     return CHAIN.format(masses="\n".join(masses), end=end, steps=steps)
 
 
+def walled(end: float, steps: int) -> str:
+    """The masses in a row, whose last one meets a wall."""
+    wall = "SFORCE/1, TRANSLATION, I=11, J=1, FUNCTION=-1E4*MAX(0, DM(11,1)-1.5)\n"
+    return chain(end, steps).replace("SIMULATE", f"{wall}SIMULATE")
+
+
 def delayed(end: float, steps: int) -> str:
     return f"""\
 a state that follows its past
@@ -113,14 +119,20 @@ def written(folder: Path, text: str) -> Path:
 
 #: A deck that runs for about a second, and flags, by a word.
 CASES = {
-    "GSTIFF SI2": (pendulum(1500, 8000), "--integrator", "GSTIFF", "--error", "1e-6"),
+    "GSTIFF SI2": (pendulum(1000, 6000), "--integrator", "GSTIFF", "--error", "1e-6"),
     "GSTIFF I3": (chain(300, 20000), "--integrator", "GSTIFF", "--formulation", "I3"),
     "CONSTANT_BDF": (pendulum(1000, 8000), "--integrator", "CONSTANT_BDF", "--hmax", "0.004"),
-    "HHT": (pendulum(1500, 8000), "--integrator", "HHT", "--error", "1e-4"),
+    "HHT": (pendulum(700, 4000), "--integrator", "HHT", "--error", "1e-4"),
     "NEWMARK": (pendulum(1500, 8000), "--integrator", "NEWMARK", "--error", "1e-4"),
-    "RADAU": (pendulum(1500, 8000), "--integrator", "RADAU", "--error", "1e-6"),
-    "RKF45": (pendulum(1500, 8000), "--integrator", "RKF45", "--error", "1e-8"),
-    "VERLET": (chain(1000, 20000), "--integrator", "VERLET"),
+    "RADAU": (pendulum(250, 1500), "--integrator", "RADAU", "--error", "1e-6"),
+    "RKF45": (pendulum(350, 2000), "--integrator", "RKF45", "--error", "1e-8"),
+    "VERLET": (chain(500, 10000), "--integrator", "VERLET"),
+    "VERLET between outputs": (chain(12000, 3), "--integrator", "VERLET"),
+    "VERLET at a wall": (walled(6000, 3), "--integrator", "VERLET"),
+    "equal steps of VERLET": (
+        chain(1200, 2).replace("SIMULATE", "INTEGRATOR/VERLET, HINIT=4E-4\nSIMULATE"),
+    ),
+    "an audit of VERLET": (chain(800, 5), "--integrator", "VERLET", "--audit"),
     "by component": (chain(1000, 20000), "--integrator", "ABAM", "--error", "1e-6"),
     "contacts by GSTIFF": (box(4000, 20000), "--integrator", "GSTIFF", "--error", "1e-5"),
     "contacts by RADAU": (box(4000, 20000), "--integrator", "RADAU", "--error", "1e-5"),
@@ -128,11 +140,11 @@ CASES = {
     "contacts by HHT": (box(4000, 20000), "--integrator", "HHT", "--error", "1e-5"),
     "contacts by AUTO": (box(4000, 20000), "--integrator", "AUTO", "--error", "1e-5"),
     "the past": (delayed(60, 8000), "--integrator", "GSTIFF", "--error", "1e-6"),
-    "two analyses": (rests(1500, 8000), "--integrator", "GSTIFF", "--error", "1e-6"),
+    "two analyses": (rests(900, 5000), "--integrator", "GSTIFF", "--error", "1e-6"),
     "sensors": (sensed(300, 6000), "--integrator", "GSTIFF", "--error", "1e-6"),
     "equilibria between": (between_equilibria(1500, 8000), "--error", "1e-6"),
-    "joints that are drawn open": (assembled(1500, 8000), "--error", "1e-6"),
-    "NetCDF": (pendulum(1000, 20000), "--integrator", "RKF45"),
+    "joints that are drawn open": (assembled(700, 4000), "--error", "1e-6"),
+    "NetCDF": (pendulum(400, 8000), "--integrator", "RKF45"),
     "some columns": (pendulum(1000, 20000), "--outputs", "REQUEST/*", "--integrator", "HHT"),
     "an audit": (pendulum(500, 8000), "--integrator", "GSTIFF", "--audit"),
     "rows within steps": (box(500, 150000), "--integrator", "GSTIFF", "--hmax", "100"),

@@ -109,8 +109,12 @@ def _of_record(name: str, record: Record) -> Iterator[tuple[str, np.ndarray]]:
 
 
 def restore(system: System, arrays: Mapping[str, np.ndarray], path: Path) -> None:
-    """Put back what :func:`arrays_of` gave of an equal system in another process."""
+    """Put back what :func:`arrays_of` gave of an equal system in another process, but for limits:
+    those of this run hold, and what crept up to one that has gone does not count.
+    """
     problem = system.records()[0]
+    budget = problem.budget
+    most, short = int(budget.most), float(budget.short)
     rows = arrays.get("rows", np.zeros(0))
     if rows.size > system.record.size:
         raise FormatError(DAMAGED.format(path=path, why=ELSEWHERE))
@@ -122,6 +126,7 @@ def restore(system: System, arrays: Mapping[str, np.ndarray], path: Path) -> Non
         if kept is None or kept.size != own.size or kept.dtype != own.dtype:
             raise FormatError(DAMAGED.format(path=path, why=ELSEWHERE))
         own[:] = kept
+    budget.most, budget.short, budget.crept = most, short, int(budget.crept) if short else 0
     problem.settings.stop = problem.block.hold = False
 
 

@@ -214,7 +214,7 @@ def integrate(
     start, end, hmax = float(run.t), float(run.t_end), float(run.h_max)
     code = _watched(system, settings.formula, progress, start, end, judged, budget, outlet)
     if outlet:
-        outlet.end(code)
+        outlet.end(code, final=not judged)
     budget.settle(system)
     system.release_guards()
     if code == GIVEN_UP:
@@ -364,16 +364,17 @@ def _watch(
             if outlet:
                 outlet.look()
             if budget.out_of_time:
-                system.settings.stop = True
+                outlet.expire() if outlet else _stop(system)
             elif progress and running.works:
                 progress.watch(look())
         except KeyboardInterrupt:
             if progress and system.count.records * system.nw > MANY:
                 progress.say(ENDING)
-            if outlet:
-                outlet.interrupt()
-            else:
-                system.settings.stop = True
+            outlet.interrupt() if outlet else _stop(system)
+
+
+def _stop(system: System) -> None:
+    system.settings.stop = True
 
 
 def _state(system: System, limits: StepLimits, start: float, end: float) -> RunState:

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 SETTLED, EVERY, LONG = 5.0, 5.0, 1.0
 #: How long an interruption waits for the last state [s].
 PATIENCE = 0.5
+#: Codes of runs that do not end for good.
+LIMITED = (contract.INTERRUPTED, contract.STEP_LIMIT, contract.CREEPING)
 #: Numbers of results that are kept in memory.
 MOST = 2**21
 # Numbers of a block: what is found block by block is the same wherever the rows are kept.
@@ -194,7 +196,7 @@ class Journal:
     ) -> None:
         self.path, self.facts, self.part = path, facts, found
         self.due = clock.monotonic() + SETTLED
-        self.run = -1
+        self.run, self.interrupted = -1, False
         self.ends: dict[int, Sequence[Any]] = {}
 
     def outlet(self, history: History, system: System, spill: Callable[[], None]) -> Outlet:
@@ -280,19 +282,31 @@ class Outlet:
             self.system.block.hold = True
 
     def interrupt(self) -> None:
-        """From another thread: end the run, with a last state where there are earlier ones."""
+        """From another thread: end the run, with a last state where there are earlier ones; at once
+        when asked again.
+        """
+        self.journal.interrupted = True
         if self.journal.part is None or self.interrupted:
             self.system.settings.stop = True
         else:
             self.interrupted = clock.monotonic()
             self.system.block.hold = True
 
-    def end(self, code: int) -> None:
-        """The run has ended with a code."""
+    def expire(self) -> None:
+        """From another thread: the same, for a limit."""
+        if not self.interrupted:
+            self.interrupt()
+
+    def end(self, code: int, final: bool) -> None:
+        """The run has ended with a code; ``final``: nothing else is tried where it has crept.
+
+        One that a limit has ended goes on from its last state, with a larger limit.
+        """
         journal, system = self.journal, self.system
         if journal.run in journal.ends:
             return
-        over = code != contract.INTERRUPTED or bool(system.triggered or system.report.torn)
+        over = code not in LIMITED or bool(system.triggered or system.report.torn)
+        over |= code == contract.CREEPING and not final
         long = journal.part is not None and clock.monotonic() > self.began + LONG
         if over and (long or journal.is_due()):
             journal.write(self.history, system, code)

@@ -126,7 +126,7 @@ def simulate(
         again = partial(
             simulate, scene, end, steps, commands=commands, progress=progress,
             no_reduction=no_reduction, files=files.to_read, max_steps=max_steps,
-            cpu_limit=budget.cpu_left,
+            cpu_limit=budget.cpu_left, journal=journal,
         )  # fmt: skip
         results = _confirmed(results, session, again)
     return _limited(results, wanted) if wanted else results

@@ -33,6 +33,16 @@ if TYPE_CHECKING:
 Written = tuple[str, Path]
 LINEARISED, PAGE = "linearised model", "page"
 
+#: Outcomes of runs that can go on: the flag, and how it goes on with it.
+LARGER = "goes on with it, where N is larger than before"
+GOING_ON = {
+    "INTERRUPTED": (),
+    "CPU_LIMIT": ("", "goes on with it, for as much CPU once more; or give another --cpu-limit"),
+    "STEP_LIMIT": (" --max-steps N", LARGER),
+    "CREEPING": (" --max-steps N", "goes on with it up to so many steps, however short"),
+    "MEMORY_LIMIT": (" --memory-limit SIZE", "goes on with it in more memory"),
+}
+
 #: What becomes of LINEAR commands then.
 UNWRITTEN = "not written: it goes beside the results, and they went to no file"
 
@@ -167,7 +177,7 @@ def _journal(
     written = Path(output)
     if is_piped(args.deck):  # nothing could read the deck again
         return None
-    if output == STDOUT or args.confirm or (written.exists() and not written.is_file()):
+    if output == STDOUT or (written.exists() and not written.is_file()):
         return None
     if scene.deck.user.called or any(same_file(part, each) for each in scene.read):
         return None
@@ -189,20 +199,21 @@ def _journal(
 
 
 def _close(journal: "Journal", results: "Results") -> None:
-    """The file of the run stays when it was interrupted, and can go on."""
-    from adamslite.results.outcomes import Outcome
-
-    if results.outcome is Outcome.INTERRUPTED:
+    """The file of the run stays when it was interrupted, or has reached a limit, and can go on."""
+    if results.outcome.name in GOING_ON:
+        _keep(journal, *GOING_ON[results.outcome.name])
+    elif journal.interrupted:  # in a witness of --confirm
         _keep(journal)
     else:
         journal.close(keep=False)
 
 
-def _keep(journal: "Journal") -> None:
+def _keep(journal: "Journal", flag: str = "", how: str = "goes on with it") -> None:
     """Leave the file of the run, if it has one, and say so."""
     journal.close(keep=True)
     if journal.part:
-        sys.stderr.write(f"adamslite: `adamslite solve --resume {journal.path}` goes on with it\n")
+        command = f"adamslite solve --resume {journal.path}{flag}"
+        sys.stderr.write(f"adamslite: `{command}` {how}\n")
 
 
 def _page(args: argparse.Namespace, scene: "Scene", output: str) -> Path | None:

@@ -14,17 +14,19 @@ from typing import TYPE_CHECKING, Any
 import adamslite
 from adamslite.errors import FormatError, UsageError
 from adamslite.outputs.part_file import DAMAGED, SUFFIX, PartFile, UnknownWriter
+from adamslite.results.run_texts import NUMBERS
 from adamslite.run_flags import run_options
 
 if TYPE_CHECKING:
     from adamslite.scene import Scene
 
 #: Arguments of `solve` that come from the file, with what they are when they are not given.
-KEPT: Mapping[str, Any] = {"outputs": [], "page": None, "values": []}
-#: Those of the run itself.
+KEPT: Mapping[str, Any] = {"outputs": [], "page": None, "values": [], "user": []}
+#: Those of the run itself, of which limits may be given anew.
+LIMITS = ("cpu_limit", "max_steps", "memory_limit")
 OPTIONS = (
     "end", "steps", "integrator", "formulation", "error", "hmax", "no_reduction", "audit",
-    "cpu_limit", "max_steps",
+    "confirm", *LIMITS,
 )  # fmt: skip
 #: What must be as it was, and what to say where it is not.
 SAME = {
@@ -88,14 +90,16 @@ def resumed(args: argparse.Namespace) -> PartFile:
     name = path.name.removesuffix(".old")
     if not name.endswith(SUFFIX):
         raise UsageError(f"--resume {path}: the file of a run that did not end is OUT{SUFFIX}")
-    given = [f"--{word.replace('_', '-')}" for word in (*run_options(args), *_given(args))]
+    limits = {name: each for name, each in run_options(args).items() if name in LIMITS}
+    others = [*(name for name in run_options(args) if name not in limits), *_given(args)]
+    given = [f"--{word.replace('_', '-')}" for word in others]
     if given or args.output:
         words = ", ".join([*given, *(["-o"] if args.output else [])])
         raise UsageError(f"--resume goes on with a run as it was requested; leave out {words}")
     part = PartFile.open(path, args.trust)
     try:
         facts = part.state["facts"]
-        for option, value in {**_checked(facts["options"]), **_texts(facts)}.items():
+        for option, value in {**_checked(facts["options"]), **limits, **_texts(facts)}.items():
             setattr(args, option, value)
         args.deck = args.deck or Path(str(facts["deck"]))
         kept = facts["commands"]
@@ -111,7 +115,7 @@ def resumed(args: argparse.Namespace) -> PartFile:
 
 def _given(args: argparse.Namespace) -> list[str]:
     given = [name for name in KEPT if getattr(args, name) != KEPT[name]]
-    return [{"values": "set"}.get(name, name) for name in given] + ["user"] * bool(args.user)
+    return [{"values": "set"}.get(name, name) for name in given]
 
 
 def _checked(options: Mapping[str, Any]) -> dict[str, Any]:
@@ -120,7 +124,8 @@ def _checked(options: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _texts(facts: Mapping[str, Any]) -> dict[str, Any]:
-    lists = {name: [str(each) for each in facts[name]] for name in ("outputs", "values")}
+    lists = {name: [str(each) for each in facts[name]] for name in ("outputs", "values", "user")}
+    lists["user"] = list(filter(NUMBERS.fullmatch, lists["user"]))  # it has no module loaded
     page = facts["page"]
     return {**lists, "page": None if page is None else str(page)}
 

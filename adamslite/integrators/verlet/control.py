@@ -20,6 +20,8 @@ class Control(Record):
     spent                sum of the errors of the present try, against ERROR
     top, mean            the largest local error of the present try, and the mean of all
     row                  the next row of the record
+    step, looks          the next step of the present try where it was left to be continued (0: it
+                         was not), and steps until accelerations are kept
     fixed                whether the step is given by HINIT
     """
 
@@ -34,3 +36,5 @@ class Control(Record):
     blown: int
     row: int
     fixed: bool
+    step: int
+    looks: int

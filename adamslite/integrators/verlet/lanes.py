@@ -13,7 +13,13 @@ from adamslite.integrators.lanes import run_lanes
 from adamslite.integrators.linalg.plan import HUGE
 from adamslite.integrators.motion_equations import put_time
 from adamslite.integrators.verlet.control import NUMBERS, Control
-from adamslite.integrators.verlet.sampling import HOPELESS, LARGE, note_steps, steps_per_estimate
+from adamslite.integrators.verlet.sampling import (
+    HOPELESS,
+    LARGE,
+    leave,
+    note_steps,
+    steps_per_estimate,
+)
 from adamslite.kernels.code.workspace import HEAD
 from adamslite.native.translate import Alone, maximum, native
 
@@ -21,18 +27,18 @@ from adamslite.native.translate import Alone, maximum, native
 @native
 def take_lane_steps(P: Problem, C: Control, t: float, h: float, count: int) -> float:
     """``count`` steps of half a kick, drift, half a kick, where the two half kicks between steps
-    are one; returns the largest local error seen against ERROR, 1e300 for a blow-up.
+    are one; returns the largest local error seen against ERROR, 1e300 for a blow-up.  Where a state
+    is asked for the steps are left, with ``C.step``.
     """
     row = P.lane.size // NUMBERS
-    n, top, every, C.spent = 3 * row, 0.0, steps_per_estimate(P, C, h), 0.0
+    n, every, first = 3 * row, steps_per_estimate(P, C, h), begin_lanes(P, C, t, row)
     x, v, F = P.lane[0:], P.lane[n:], P.lane[2 * n :]
     before, inverse = P.lane[3 * n :], P.lane[4 * n :]
-    fill_lanes(P, row)
-    put_time(P, t)
-    looks = 0  # steps until the acceleration is kept, with which that of the step after is compared
-    for s in range(count + 1):
-        if P.settings.stop:
-            return HUGE
+    # Steps until the acceleration is kept, with which that of the step after is compared.
+    top, looks = C.top, C.looks
+    for s in range(first, count + 1):
+        if P.settings.stop or (P.block.hold and s > first):
+            return leave(P, C, s, top, looks)
         P.W[0] = t + s * h
         if s > 0 and P.sizes.n_head > HEAD:
             put_time(P, t + s * h)
@@ -58,6 +64,17 @@ def take_lane_steps(P: Problem, C: Control, t: float, h: float, count: int) -> f
         return HUGE
     note_steps(P, C, count)
     return 0.0 if C.fixed else top
+
+
+@native
+def begin_lanes(P: Problem, C: Control, t: float, row: int) -> int:
+    """The step to begin with; zero unless the try was left."""
+    first, C.step = C.step, 0
+    if first == 0:
+        fill_lanes(P, row)
+        put_time(P, t)
+        C.top, C.spent, C.looks = 0.0, 0.0, 0
+    return first
 
 
 @native

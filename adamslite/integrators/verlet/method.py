@@ -51,7 +51,13 @@ from adamslite.integrators.stepping.outcome import OVERFLOW
 from adamslite.integrators.unconstrained import POWERS, clear, divide_by_mass, put_free, radius
 from adamslite.integrators.verlet.control import Control
 from adamslite.integrators.verlet.lanes import take_lane_steps
-from adamslite.integrators.verlet.sampling import HOPELESS, LARGE, note_steps, steps_per_estimate
+from adamslite.integrators.verlet.sampling import (
+    HOPELESS,
+    LARGE,
+    leave,
+    note_steps,
+    steps_per_estimate,
+)
 from adamslite.native.translate import Reals, native, rare
 
 # Turns of the search for an eigenvalue from the vector found before, where laws are smooth.
@@ -89,15 +95,16 @@ def verlet(P: Problem, L: Plan) -> int:
         begin(P, C)
     while C.row < P.times.size:
         P.block.row = C.row
-        if P.settings.stop:
-            return INTERRUPTED
-        if not has_room(P, C.row):
-            return FULL
-        if P.block.hold:
-            return HELD
+        if C.step == 0:
+            if P.settings.stop:
+                return INTERRUPTED
+            if not has_room(P, C.row):
+                return FULL
+            if P.block.hold:
+                return HELD
         outcome = advance(P, L, C)
-        if outcome == PAUSED:
-            return PAUSED
+        if outcome == PAUSED or outcome == HELD:
+            return outcome
         if outcome != DONE:
             restore_state(P, P.report.t)
             return outcome
@@ -123,11 +130,14 @@ def begin(P: Problem, C: Control) -> None:
 
 @native
 def advance(P: Problem, L: Plan, C: Control) -> int:
-    """From one output time to the next over all stops between; returns an outcome."""
-    limit_step(P, C)
+    """From one output time to the next over all stops between; returns an outcome, HELD where a
+    state is asked for on the way.
+    """
     at, end, outcome = P.report.t, P.times[C.row], DONE
-    if is_time_to_pause(P, (end - at) / (C.wanted if C.fixed else min(C.wanted, C.limit))):
-        return PAUSED
+    if C.step == 0:
+        limit_step(P, C)
+        if is_time_to_pause(P, (end - at) / (C.wanted if C.fixed else min(C.wanted, C.limit))):
+            return PAUSED
     while at < end and outcome == DONE:
         set_pace(P, at)
         to = min(end, present_stop(P), end_of_pace(P))
@@ -208,12 +218,13 @@ def cover(P: Problem, L: Plan, C: Control, t: float, end: float) -> int:
     """From one output time or stop to the next by equal steps; returns an outcome."""
     n, fixed = P.sizes.n, C.fixed
     old = P.history[9 * P.sizes.nb :]
-    for i in range(n):
-        old[i], old[n + i] = P.q[i], P.u[i]
-    keep_audit(P)
+    if C.step == 0:
+        for i in range(n):
+            old[i], old[n + i] = P.q[i], P.u[i]
+        keep_audit(P)
     wanted, blown = min(C.wanted if C.tried == 0.0 else C.tried, longest_step(P)), C.blown
     least = min(P.settings.h_min, longest_step(P))
-    while not P.settings.stop:
+    while C.step > 0 or not P.settings.stop:
         if not fixed:
             wanted = min(wanted, C.limit)
         h = (end - t) / max(1.0, 0.0 - floor(WHOLE - (end - t) / wanted))
@@ -222,9 +233,11 @@ def cover(P: Problem, L: Plan, C: Control, t: float, end: float) -> int:
         refused = refusal(P, C, h, count, wanted < least or blown == MOST_BLOWN)
         if refused != RUNNING:
             return refused
-        if C.tried > 0.0 and is_time_to_pause(P, float(count)):
+        if C.step == 0 and C.tried > 0.0 and is_time_to_pause(P, float(count)):
             return PAUSED
         error = take_steps(P, L, C, t, h, count)
+        if C.step > 0:
+            return HELD
         P.report.error = error
         stable = stable_in_contact(P, C, t, h) if error <= 1.0 else HUGE
         P.report.stable_step = min(P.report.stable_step, stable)
@@ -282,17 +295,17 @@ def choose_step(P: Problem, C: Control, error: float, h: float, wanted: float) -
 @native
 def take_steps(P: Problem, L: Plan, C: Control, t: float, h: float, count: int) -> float:
     """``count`` steps of half a kick, drift, half a kick, where the two half kicks between steps
-    are one; returns the largest local error seen against ERROR, 1e300 for a blow-up.
+    are one; returns the largest local error seen against ERROR, 1e300 for a blow-up.  Where a state
+    is asked for the steps are left, with ``C.step``.
     """
     if P.lane_runs.size > 0 and P.sizes.watched + P.sizes.zones == 0 and not P.audit.on:
         return take_lane_steps(P, C, t, h, count)
-    fixed, n = C.fixed, P.sizes.n
-    top, every, C.spent = 0.0, steps_per_estimate(P, C, h), 0.0
+    fixed, n, first = C.fixed, P.sizes.n, begin_steps(P, C, t)
+    top, every = C.top, steps_per_estimate(P, C, h)
     hard = P.history[9 * P.sizes.nb + 2 * n :]
-    put_free(P, t, P.q, P.u)
-    for s in range(count + 1):
-        if P.settings.stop:
-            return HUGE
+    for s in range(first, count + 1):
+        if P.settings.stop or (P.block.hold and s > first):
+            return leave(P, C, s, top, 0)
         if s > 0:
             put_time(P, t + s * h)
         run_groups(P, LOADS, P.F)
@@ -316,6 +329,16 @@ def take_steps(P: Problem, L: Plan, C: Control, t: float, h: float, count: int) 
         return HUGE
     note_steps(P, C, count)
     return 0.0 if fixed else top
+
+
+@native
+def begin_steps(P: Problem, C: Control, t: float) -> int:
+    """The step to begin with; zero unless the try was left."""
+    first, C.step = C.step, 0
+    if first == 0:
+        C.top, C.spent = 0.0, 0.0
+        put_free(P, t, P.q, P.u)
+    return first
 
 
 @native

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
+from adamslite.integrators.linalg.plan import HUGE
 from adamslite.integrators.verlet.control import Control
-from adamslite.native.translate import native
+from adamslite.native.translate import native, rare
 
 # Steps from one look at the local error to the next, where no force changes its law (a contact may
 # begin and end between two looks) and stability decides how long they are: eight of these are one
@@ -24,6 +25,15 @@ def steps_per_estimate(P: Problem, C: Control, h: float) -> int:
     if C.fixed:
         return FIXED_SAMPLE
     return SAMPLE if P.sizes.watched == 0 and 2.0 * h > C.limit else 1
+
+
+@native
+@rare
+def leave(P: Problem, C: Control, step: int, top: float, looks: int) -> float:
+    """Give a try up before a step: for good where the run is to stop, else to be continued."""
+    if not P.settings.stop:
+        C.step, C.top, C.looks = step, top, looks
+    return HUGE
 
 
 @native
