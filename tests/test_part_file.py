@@ -73,6 +73,63 @@ def test_rows_are_read_as_they_were_written(tmp_path: Path) -> None:
     assert history.count == 3 and (history.whole.times == ROWS.times[:3]).all()
 
 
+def numbers(data: bytes, path: Path) -> int | None:
+    """The state that counts in a file of these bytes; None where there is none."""
+    path.write_bytes(data)
+    try:
+        part = PartFile.open(path)
+    except FormatError:
+        return None
+    part.close()
+    assert (part.arrays["a"] == float(part.state["number"])).all()
+    return int(part.state["number"])
+
+
+def test_a_file_that_ends_anywhere_has_one_of_its_states_or_none(tmp_path: Path) -> None:
+    path = tmp_path / "x.part"
+    written(path, *range(9)).close()
+    data = path.read_bytes()
+    found = {numbers(data[:end], path) for end in [*range(0, len(data), 7), len(data)]}
+    assert found == {None, 7, 8}
+
+
+def test_a_bit_that_is_turned_leaves_one_of_the_last_states_or_none(tmp_path: Path) -> None:
+    path = tmp_path / "x.part"
+    written(path, *range(9)).close()
+    data, found = path.read_bytes(), set()
+    for at in [*range(256), *range(FIRST, len(data), 41)]:
+        for bit in (0, 7) if at >= FIRST else range(8):
+            turned = bytearray(data)
+            turned[at] ^= 1 << bit
+            found.add(numbers(bytes(turned), path))
+    assert found == {None, 7, 8}
+
+
+def test_a_link_to_nothing_gives_way(tmp_path: Path) -> None:
+    path = tmp_path / "x.part"
+    path.symlink_to(tmp_path / "nothing")
+    written(path, 1).close()
+    assert PartFile.open(path).state["number"] == 1 and not path.is_symlink()
+    assert (tmp_path / "x.part.old").is_symlink() and not (tmp_path / "nothing").exists()
+
+
+def test_a_link_is_not_written_through(tmp_path: Path) -> None:
+    path, other = tmp_path / "x.part", tmp_path / "other"
+    other.write_bytes(b"of somebody else")
+    path.symlink_to(other)
+    written(path, 1).close()
+    assert other.read_bytes() == b"of somebody else" and not path.is_symlink()
+
+
+def test_rows_without_a_name_go_with_the_process(tmp_path: Path) -> None:
+    part, history = PartFile.nameless(tmp_path), History()
+    history.extend(ROWS)
+    history.file(part)
+    assert (history.whole.values == ROWS.values).all()
+    part.remove()
+    assert not list(tmp_path.iterdir())
+
+
 @pytest.mark.parametrize("what", ["empty", "text", "cut", "flipped"])
 def test_a_damaged_file_is_reported(tmp_path: Path, what: str) -> None:
     path = tmp_path / "x.part"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import random
 import signal
 import subprocess
 import sys
@@ -132,6 +134,68 @@ class TestWhatWasLeftBehind:
         part.close()
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="named pipes")
+@pytest.mark.parametrize("kind", ["folder", "pipe"])
+def test_a_name_that_is_taken_by_no_file_is_refused_before_the_run(
+    tmp_path: Path, kind: str, capsys
+) -> None:
+    deck, part = written(tmp_path, pendulum(1, 10)), tmp_path / "x.csv.part"
+    part.mkdir() if kind == "folder" else os.mkfifo(part)
+    assert main(["solve", str(deck), "-o", str(tmp_path / "x.csv")]) == 2
+    assert "is not a plain file, and the run would be kept there" in capsys.readouterr().err
+
+
+#: A swing with a spring of Python's.
+ROUTINE = pendulum(40, 4000).replace(
+    "SIMULATE",
+    "VFORCE/1, I=4, JFLOAT=9, RM=1, FUNCTION=USER(1)\nMARKER/9, PART=1, FLOATING\nSIMULATE",
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "words", "why"),
+    [
+        (pendulum(400, 20000), ["-o", "-"], "its results go to standard output"),
+        (pendulum(400, 20000), ["-o", os.devnull], f"{os.devnull} is no plain file"),
+        pytest.param(
+            ROUTINE, ["-o", "x.csv", "--user", "VFOSUB=spring:force"],
+            "its routines of Python may remember anything", marks=pytest.mark.slow,
+        ),
+    ],
+)  # fmt: skip
+def test_a_long_run_that_is_not_kept_says_so(
+    tmp_path: Path, text: str, words: list[str], why: str
+) -> None:
+    """Its rows are in a file without a name; they are those of a run whose rows are in memory."""
+    (tmp_path / "spring.py").write_text(
+        "import adamslite\n"
+        "@adamslite.reads('DX(4)', 'DY(4)')\n"
+        "def force(parameters, time, x, y):\n"
+        "    return -x, -y, 0.0\n"
+    )
+    deck = written(tmp_path, text)
+    often = (
+        OFTEN.replace("import sys", "import sys; sys.path.insert(0, '.')")
+        .replace("history.SETTLED,", "history.MOST, history.SETTLED,")
+        .replace("= 0.0, 0.02", "= 0, 0.0, 0.02")
+    )
+    flags = [*words, "--integrator", "RKF45"]
+    done = subprocess.run(
+        [sys.executable, "-c", often, "solve", deck.name, *flags],
+        capture_output=True, text=True, cwd=tmp_path,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert f"a run that is killed begins anew: it is not kept, because {why}" in done.stderr
+    found = (tmp_path / "x.csv").read_text() if "x.csv" in words else done.stdout
+    whole = subprocess.run(
+        [sys.executable, "-m", "adamslite", "solve", deck.name, *flags, "--quiet"],
+        capture_output=True, text=True, cwd=tmp_path,
+    )  # fmt: skip
+    assert whole.returncode == 0 and "begins anew" not in whole.stderr
+    assert found == ((tmp_path / "x.csv").read_text() if "x.csv" in words else whole.stdout)
+    assert not list(tmp_path.glob("*.part*"))
+
+
 class TestGoingOn:
     @pytest.fixture
     def part(self, tmp_path: Path) -> Path:
@@ -158,6 +222,58 @@ class TestGoingOn:
         assert main(["solve", "--resume", str(part)]) == 2
         assert "deck, commands or tables have changed since" in capsys.readouterr().err
         assert part.exists()
+
+    def test_a_folder_that_was_moved_has_its_deck_with_it(self, part: Path, tmp_path: Path) -> None:
+        whole, moved = solved(part.with_name("deck.adm"), *FLAGS), tmp_path.parent / "moved"
+        tmp_path.rename(moved)
+        done = subprocess.run(command("--resume", "moved/x.csv.part"), cwd=moved.parent)
+        assert done.returncode == 0 and (moved / "x.csv").read_bytes() == whole
+
+    def test_a_deck_that_has_gone_is_named(self, part: Path, capsys) -> None:
+        part.with_name("deck.adm").unlink()
+        assert main(["solve", "--resume", str(part)]) == 5
+        assert "deck.adm" in capsys.readouterr().err and part.exists()
+
+    @pytest.mark.slow
+    def test_what_was_damaged_is_refused_or_does_no_harm(self, part: Path) -> None:
+        """Cut, or with a byte changed, anywhere."""
+        whole, chance = solved(part.with_name("deck.adm"), *FLAGS), random.Random(1)
+        data, output = part.read_bytes(), part.with_name("x.csv")
+        for k in range(16):
+            at = chance.randrange(256 if k % 4 == 0 else len(data))
+            changed = bytearray(data)
+            changed[at] ^= 1 << chance.randrange(8)
+            part.write_bytes(data[:at] if k % 4 == 1 else bytes(changed))
+            code = main(["solve", "--resume", str(part), "--quiet"])
+            assert code == 5 or (code == 0 and output.read_bytes() == whole)
+            assert output.exists() == (code == 0) and part.exists() == (code == 5)
+            output.unlink(missing_ok=True)
+
+    @pytest.mark.parametrize(
+        ("fact", "said"), [("processor", "another kind of processor"), ("program", "version")]
+    )
+    def test_one_of_elsewhere_is_refused(self, part: Path, fact: str, said: str, capsys) -> None:
+        changed = PartFile.open(part)
+        facts = {**changed.state["facts"], fact: ""}
+        changed.commit(changed.write_state({**changed.state, "facts": facts}, changed.arrays))
+        changed.close()
+        assert main(["solve", "--resume", str(part)]) == 2
+        assert said in capsys.readouterr().err
+
+    @pytest.mark.skipif(sys.platform == "win32", reason="anybody may open a file there")
+    def test_two_at_once_are_refused(self, part: Path, capsys) -> None:
+        held = PartFile.open(part)
+        assert main(["solve", "--resume", str(part)]) == 2
+        assert "another run is writing" in capsys.readouterr().err
+        held.close()
+
+    def test_a_function_that_the_file_names_is_not_loaded(self, part: Path) -> None:
+        """A file of others may name any module; numbers alone are taken from it."""
+        from adamslite.cli.commands.unfinished import _texts
+
+        facts = {"outputs": [], "values": [], "page": None,
+                 "user": ["VARSUB=this:function", "VARIABLE/1=0, 2.5"]}  # fmt: skip
+        assert _texts(facts)["user"] == ["VARIABLE/1=0, 2.5"]
 
     def test_flags_of_the_run_are_not_taken_again(self, part: Path, capsys) -> None:
         more = ["--end", "3", "-o", "y.csv", "--set", "PART/2.MASS=3"]

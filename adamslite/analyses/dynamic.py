@@ -363,6 +363,7 @@ def _watch(
             running.wait(WATCH_INTERVAL)
             if outlet:
                 outlet.look()
+                _say(progress, outlet.journal.note())
             if budget.out_of_time:
                 outlet.expire() if outlet else _stop(system)
             elif progress and running.works:
@@ -371,6 +372,11 @@ def _watch(
             if progress and system.count.records * system.nw > MANY:
                 progress.say(ENDING)
             outlet.interrupt() if outlet else _stop(system)
+
+
+def _say(progress: Progress | None, sentence: str) -> None:
+    if progress and sentence:
+        progress.say(sentence)
 
 
 def _stop(system: System) -> None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import time as clock
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,8 +18,6 @@ import numpy as np
 from adamslite.integrators import contract
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from adamslite.equations.system import System
     from adamslite.outputs.part_file import Part, PartFile, Stretch
 
@@ -191,6 +190,9 @@ class Journal:
         The file of the session that is to be resumed.
     """
 
+    #: Why a session cannot be resumed, of which rows alone are kept.
+    unkept = ""
+
     def __init__(
         self, path: Path, facts: Callable[[], Mapping[str, Any]], found: PartFile | None = None
     ) -> None:
@@ -207,6 +209,14 @@ class Journal:
     def is_due(self) -> bool:
         """Whether it is time for another state."""
         return clock.monotonic() >= self.due
+
+    def relieve(self, history: History) -> None:
+        """There are too many rows for the memory."""
+        self.due = 0.0
+
+    def note(self) -> str:
+        """What there is to say of the session by now."""
+        return ""
 
     def write(self, history: History, system: System, code: int | None = None) -> None:
         """Keep the present run, which goes on or has ended with ``code``."""
@@ -241,6 +251,37 @@ class Journal:
             self.part.remove()
 
 
+class Unkept(Journal):
+    """Of a session that cannot be resumed: only its rows go to a file, which has no name.
+
+    Parameters
+    ----------
+    why : str
+        The reason.
+    folder : Path or None
+        Where the file is; without, among temporary files.
+    """
+
+    def __init__(self, why: str, folder: Path | None) -> None:
+        super().__init__(Path(), dict)
+        self.unkept, self.folder, self.noted = why, folder, False
+
+    def is_due(self) -> bool:
+        return False
+
+    def relieve(self, history: History) -> None:
+        from adamslite.outputs.part_file import PartFile
+
+        self.part = self.part or PartFile.nameless(self.folder)
+        history.file(self.part)
+
+    def note(self) -> str:
+        if self.noted or clock.monotonic() < self.due:
+            return ""
+        self.noted = True
+        return f"a run that is killed begins anew: it is not kept, because {self.unkept}"
+
+
 class Outlet:
     """Takes the records of one run when there is no more room for them, and keeps the run."""
 
@@ -265,8 +306,8 @@ class Outlet:
         journal, block = self.journal, self.system.block
         if code == contract.FULL:
             self.spill()
-            if journal.part is None and self.history.in_memory > MOST:
-                journal.due = 0.0
+            if self.history.part is None and self.history.in_memory > MOST:
+                journal.relieve(self.history)
         if code == contract.HELD or journal.is_due():
             block.hold = False
             journal.write(self.history, self.system)
@@ -286,7 +327,7 @@ class Outlet:
         when asked again.
         """
         self.journal.interrupted = True
-        if self.journal.part is None or self.interrupted:
+        if self.journal.part is None or self.journal.unkept or self.interrupted:
             self.system.settings.stop = True
         else:
             self.interrupted = clock.monotonic()
@@ -308,5 +349,7 @@ class Outlet:
         over = code not in LIMITED or bool(system.triggered or system.report.torn)
         over |= code == contract.CREEPING and not final
         long = journal.part is not None and clock.monotonic() > self.began + LONG
+        if journal.unkept:
+            return
         if over and (long or journal.is_due()):
             journal.write(self.history, system, code)

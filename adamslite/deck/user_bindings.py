@@ -104,6 +104,11 @@ class Bindings:
         return None
 
     @property
+    def calls_python(self) -> bool:
+        """Whether functions of Python run in place of routines."""
+        return any(each.function is not None for each in self.used.values())
+
+    @property
     def failed(self) -> Routine | None:
         """A routine that raised an exception, the first one."""
         return next((each for each in self.made if each.fault is not None), None)

@@ -26,12 +26,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, BinaryIO, Protocol, TypeAlias
+from typing import Any, BinaryIO, Protocol, TypeAlias, cast
 
 import numpy as np
 
 from adamslite.caching.secret import seal
 from adamslite.errors import FormatError, UsageError
+from adamslite.outputs.drafts import SUFFIX, draft_of, lock
 from adamslite.results.untrusted import from_json
 
 MAGIC = b"adamslite part 2\n"
@@ -46,13 +47,14 @@ RECORD, CHECK = struct.Struct("<QQQI16s"), struct.Struct("<I")
 SPARE = 1.5
 #: Bytes that are read at once.
 CHUNK = 1 << 24
-SUFFIX, OLD = ".part", ".old"
+OLD = ".old"
 BINARY = getattr(os, "O_BINARY", 0)
 DAMAGED = "{path} is damaged, or no unfinished run of adamslite: {why}"
 FOREIGN = (
     "{path} was not written with this cache: whoever made it can have it run any code. If it is "
     "your own, of another machine or of an earlier cache, `solve --resume {path} --trust` takes it"
 )
+OTHER = "its first line is another, perhaps of another version"
 BUSY = "another run is writing '{output}': {path} is in use; wait for it, or give -o another name"
 
 
@@ -134,7 +136,7 @@ class PartFile:
         self.path, self._stream, self._trusted = path, stream, trusted
         self.state: Mapping[str, Any] = {}
         self.arrays: Mapping[str, np.ndarray] = {}
-        self._serial, self._end = 0, FIRST
+        self._serial, self._end, self._nameless = 0, FIRST, False
         # The states that the two records name, free room, and the room of each place.
         self._named: list[Place] = []
         self._free: list[tuple[int, int]] = []
@@ -151,11 +153,10 @@ class PartFile:
             When another run is writing it.
         """
         if os.path.lexists(path):
-            with open(path, "r+b") as stream:
+            with suppress(OSError), open(path, "r+b") as stream:  # it may be a link to nothing
                 _lock(path, stream)
             os.replace(path, f"{path}{OLD}")
-        draft = path.with_name(f".{path.name}.{os.getpid()}")
-        draft.unlink(missing_ok=True)
+        draft = draft_of(path)
         flags = os.O_RDWR | os.O_CREAT | os.O_EXCL | BINARY
         stream = os.fdopen(os.open(draft, flags, 0o666), "r+b")
         try:
@@ -168,6 +169,18 @@ class PartFile:
             stream.close()
             draft.unlink(missing_ok=True)
             raise
+        return found
+
+    @staticmethod
+    def nameless(folder: Path | None) -> PartFile:
+        """A file for rows alone, which goes with the process; without ``folder`` among temporary
+        files.
+        """
+        from tempfile import TemporaryFile, gettempdir
+
+        place = folder or Path(gettempdir())
+        found = PartFile(place, cast(BinaryIO, TemporaryFile(dir=place)))
+        found._nameless = True
         return found
 
     @staticmethod
@@ -197,7 +210,8 @@ class PartFile:
 
     def remove(self) -> None:
         """The run is over: close the file and take it away."""
-        self.path.unlink(missing_ok=True)
+        if not self._nameless:
+            self.path.unlink(missing_ok=True)
         self.close()
 
     def read(self, at: int, size: int) -> bytes:
@@ -296,7 +310,7 @@ class PartFile:
 
     def _read_state(self) -> None:
         if self._stream.read(len(MAGIC)) != MAGIC:
-            raise FormatError(DAMAGED.format(path=self.path, why="its first line is another"))
+            raise FormatError(DAMAGED.format(path=self.path, why=OTHER))
         found = sorted(filter(None, map(self._record, RECORDS)))
         for serial, place in reversed(found):
             with suppress(FormatError):
@@ -340,20 +354,13 @@ class PartFile:
         try:
             yield
         except OSError as fault:
-            reason = f"{fault.strerror}; what there is goes on with `adamslite solve --resume`"
+            goes_on = "; what there is goes on with `adamslite solve --resume`"
+            reason = f"{fault.strerror}{'' if self._nameless else goes_on}"
             raise OSError(fault.errno, reason, str(self.path)) from None
 
 
 def _lock(path: Path, stream: BinaryIO) -> None:
     """Have the file to oneself until it is closed, where the system can."""
-    try:
-        import fcntl
-    except ImportError:  # Windows lets nobody remove an open file, and no more
-        return
-    try:
-        fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
+    if lock(stream) is False:
         output = path.with_name(path.name.removesuffix(OLD).removesuffix(SUFFIX))
-        raise UsageError(BUSY.format(output=output, path=path)) from None
-    except OSError:  # a file system without locks
-        return
+        raise UsageError(BUSY.format(output=output, path=path))

@@ -8,6 +8,7 @@ from typing import IO, Any, Literal, overload
 
 from adamslite.errors import UsageError
 from adamslite.notation import STDOUT
+from adamslite.outputs.drafts import draft_of, lock, remove_drafts
 
 #: How matrices for MATLAB begin, which have no room for a word: no reader of numbers minds blanks.
 PLAIN = " \t "
@@ -50,10 +51,11 @@ def whole_file(path: str | Path, binary: bool = False) -> Iterator[IO[Any]]:
         with _named(path), open(target, f"w{kind}", encoding=encoding, newline=newline) as stream:
             yield stream
         return
-    draft = _draft(target)
+    draft = draft_of(target)
     try:
         with _named(path, draft):
             with open(draft, f"x{kind}", encoding=encoding, newline=newline) as stream:
+                lock(stream)
                 yield stream
                 stream.flush()
                 os.fsync(stream.fileno())  # some disks are known to be full only now
@@ -72,11 +74,6 @@ def _named(path: str | Path, draft: Path | None = None) -> Iterator[None]:
         if fault.errno is not None and fault.filename in (None, str(draft)):
             fault.filename, fault.filename2 = str(path), None
         raise
-
-
-def _draft(target: Path) -> Path:
-    """A name that nobody can expect: another thread, process or machine may write `target`, too."""
-    return target.with_name(f".{target.name}.{os.urandom(4).hex()}.part")
 
 
 def same_file(path: str | Path, other: str | Path) -> bool:
@@ -107,7 +104,8 @@ def need_file(path: str | Path) -> None:
 
 
 def need_writable(path: str | Path, read: Iterable[Path], named: bool = True) -> None:
-    """Fail now rather than after a long run; never write over what is ``read``.
+    """Fail now rather than after a long run; never write over what is ``read``; take away what a
+    killed program has left of the file.
 
     Parameters
     ----------
@@ -144,7 +142,8 @@ def need_writable(path: str | Path, read: Iterable[Path], named: bool = True) ->
     if not os.access(folder, os.W_OK):
         raise PermissionError(13, "the results cannot be written there: no permission", str(folder))
     with suppress(FileNotFoundError):
-        os.lstat(_draft(Path(path)))  # fails when the name is too long for the system
+        os.lstat(draft_of(Path(path)))  # fails when the name is too long for the system
+    remove_drafts(path)
 
 
 def _need_confined(path: Path) -> None:

@@ -168,20 +168,18 @@ def _resumed(args: argparse.Namespace) -> "PartFile | None":
 def _journal(
     args: argparse.Namespace, scene: "Scene", output: str, found: "PartFile | None"
 ) -> "Journal | None":
-    """Where the run is kept when it takes long; None where it cannot be resumed."""
+    """Where the run is kept when it takes long."""
     from adamslite.analyses.history import Journal
-    from adamslite.language.text import is_piped
-    from adamslite.outputs.whole_files import same_file
+    from adamslite.errors import UsageError
 
     part = args.resume or Path(f"{output}.part")
-    written = Path(output)
-    if is_piped(args.deck):  # nothing could read the deck again
-        return None
-    if output == STDOUT or (written.exists() and not written.is_file()):
-        return None
-    if scene.deck.user.called or any(same_file(part, each) for each in scene.read):
-        return None
-    if part.exists() and not found:
+    unkept = _unkept(scene, output, part)
+    if unkept:
+        if found:
+            found.close()
+            raise UsageError(f"{part} cannot be resumed: {unkept.unkept}")
+        return unkept
+    if os.path.lexists(part) and not found:
         from adamslite.cli.commands.unfinished import report
 
         report(part)
@@ -198,11 +196,33 @@ def _journal(
     return Journal(part, facts, found)
 
 
+def _unkept(scene: "Scene", output: str, part: Path) -> "Journal | None":
+    """What becomes of the rows of a run that cannot be resumed."""
+    from adamslite.analyses.history import Unkept
+    from adamslite.language.text import is_piped
+    from adamslite.outputs.whole_files import same_file
+
+    written = Path(output)
+    if is_piped(scene.deck_path):
+        return Unkept("its deck could not be read again", None)
+    if output == STDOUT:
+        return Unkept("its results go to standard output", None)
+    if written.exists() and not written.is_file():
+        return Unkept(f"{output} is no plain file", None)
+    if scene.deck.user.calls_python:
+        return Unkept("its routines of Python may remember anything", written.parent)
+    if any(same_file(part, each) for each in scene.read):
+        return Unkept(f"{part} is read", written.parent)
+    return None
+
+
 def _close(journal: "Journal", results: "Results") -> None:
     """The file of the run stays when it was interrupted, or has reached a limit, and can go on."""
-    if results.outcome.name in GOING_ON:
+    if journal.unkept:
+        journal.close(keep=False)
+    elif results.outcome.name in GOING_ON:
         _keep(journal, *GOING_ON[results.outcome.name])
-    elif journal.interrupted:  # in a witness of --confirm
+    elif journal.interrupted and results.confirmation:  # in one of its witnesses
         _keep(journal)
     else:
         journal.close(keep=False)
@@ -211,7 +231,7 @@ def _close(journal: "Journal", results: "Results") -> None:
 def _keep(journal: "Journal", flag: str = "", how: str = "goes on with it") -> None:
     """Leave the file of the run, if it has one, and say so."""
     journal.close(keep=True)
-    if journal.part:
+    if journal.part and not journal.unkept:
         command = f"adamslite solve --resume {journal.path}{flag}"
         sys.stderr.write(f"adamslite: `{command}` {how}\n")
 

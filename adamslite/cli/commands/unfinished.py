@@ -7,13 +7,14 @@ import hashlib
 import json
 import os
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import adamslite
 from adamslite.errors import FormatError, UsageError
-from adamslite.outputs.part_file import DAMAGED, SUFFIX, PartFile, UnknownWriter
+from adamslite.outputs.drafts import SUFFIX
+from adamslite.outputs.part_file import DAMAGED, PartFile, UnknownWriter
 from adamslite.results.run_texts import NUMBERS
 from adamslite.run_flags import run_options
 
@@ -45,13 +46,37 @@ def facts_of(args: argparse.Namespace, scene: Scene) -> Mapping[str, Any]:
     source = source_of(scene.deck, scene.commands)
     texts = [source.deck, source.commands, list(source.user), source.table_texts()]
     digest = hashlib.sha256(json.dumps(texts).encode(errors="surrogatepass")).hexdigest()
-    commands = scene.commands_path
     return {
         "program": program(), "version": adamslite.__version__, "processor": processor.name(),
-        "source": digest, "deck": os.path.abspath(scene.deck_path),
-        "commands": os.path.abspath(commands) if commands else None, "options": run_options(args),
+        "source": digest, "folder": os.getcwd(), "options": run_options(args),
+        "deck": _kept_place(scene.deck_path, args),
+        "commands": _kept_place(scene.commands_path, args),
         **{name: getattr(args, name) for name in KEPT},
     }  # fmt: skip
+
+
+def _kept_place(path: Path | None, args: argparse.Namespace) -> list[str] | None:
+    """A file as it was named, and as seen from the folder of the results."""
+    if path is None:
+        return None
+    folder = os.path.dirname(os.path.abspath(args.output)) if args.output else os.getcwd()
+    try:
+        return [str(path), os.path.relpath(path, folder)]
+    except ValueError:  # on another drive
+        return [str(path), os.path.abspath(path)]
+
+
+def _place(kept: Sequence[str] | None, folder: str, part: Path) -> Path | None:
+    """Where a file is now: as it was named, or where it is beside the part, whose folder may have
+    been moved.
+    """
+    if kept is None:
+        return None
+    named, beside = map(str, kept)
+    here = Path(named)
+    if os.path.abspath(folder) != os.getcwd():
+        here = Path(folder) / named
+    return here if here.exists() else part.parent / beside
 
 
 def report(path: Path) -> None:
@@ -60,8 +85,13 @@ def report(path: Path) -> None:
     Raises
     ------
     UsageError
-        When it is running.
+        When it is running, or the name is that of something else than a file.
     """
+    if path.exists() and not path.is_file():
+        raise UsageError(
+            f"'{path}' is not a plain file, and the run would be kept there; remove it or give -o "
+            "another name"
+        )
     try:
         part = PartFile.open(path)
     except (FormatError, UnknownWriter, OSError) as fault:
@@ -101,9 +131,9 @@ def resumed(args: argparse.Namespace) -> PartFile:
         facts = part.state["facts"]
         for option, value in {**_checked(facts["options"]), **limits, **_texts(facts)}.items():
             setattr(args, option, value)
-        args.deck = args.deck or Path(str(facts["deck"]))
-        kept = facts["commands"]
-        args.commands = args.commands or (Path(str(kept)) if kept else None)
+        folder = str(facts["folder"])
+        args.deck = args.deck or _place(facts["deck"], folder, path)
+        args.commands = args.commands or _place(facts["commands"], folder, path)
         args.output = str(path.with_name(name.removesuffix(SUFFIX)))
     except (KeyError, TypeError, ValueError, AttributeError) as fault:
         part.close()
@@ -134,7 +164,7 @@ def compare(part: PartFile, now: Mapping[str, Any]) -> None:
     """Raises UsageError when a run would not go on to the same numbers."""
     kept = part.state["facts"]
     for name, sentence in SAME.items():
-        if kept.get(name) != now[name]:
+        if not now[name] or kept.get(name) != now[name]:
             path = part.path
             part.close()
             raise UsageError(f"{path} cannot be resumed: {sentence}")
