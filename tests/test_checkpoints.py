@@ -17,6 +17,7 @@ from adamslite.analyses.session import Session
 from adamslite.analyses.simulation import simulate
 from adamslite.elements.simulate import Simulate
 from adamslite.equations.system import System
+from adamslite.integrators.verlet.control import Control
 from adamslite.results.outcomes import Outcome
 
 #: Methods, and the deck that each runs here.
@@ -41,6 +42,34 @@ def test_where_blocks_end_changes_no_number(
     parts = simulate(deck, integrator=method, hmax=hmax, journal=Journal(path, dict))
     assert path.exists() and parts.count == 701
     assert np.array_equal(parts.values, whole.values) and parts.meta == whole.meta
+
+
+@pytest.mark.parametrize(
+    "words", ["", "HINIT=2E-3", "ERROR=1E-7"], ids=["", "equal steps", "steps taken back"]
+)
+def test_verlet_is_held_between_outputs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: str
+) -> None:
+    """States are asked for all the time in an output interval; none changes a number."""
+    given = f"INTEGRATOR/VERLET{', ' * bool(words)}{words}\n"
+    text = chain(600, 2).replace("SIMULATE", f"{given}SIMULATE")
+    whole, inside = al.simulate(al.read(text)), []
+    write = checkpoint.write
+
+    def noted(*given: Any) -> None:
+        inside.append(given[5].control[Control.fields["step"].at] != 0)
+        write(*given)
+
+    monkeypatch.setattr(checkpoint, "write", noted)
+    monkeypatch.setattr(history, "SETTLED", 0.0)
+    monkeypatch.setattr(history, "EVERY", 0.0)
+    monkeypatch.setattr(history, "LONG", 1e9)
+    monkeypatch.setattr(dynamic, "WATCH_INTERVAL", 1e-4)
+    parts = simulate(al.read(text), journal=Journal(tmp_path / "x.part", dict))
+    assert sum(inside) > 2
+    assert np.array_equal(parts.values, whole.values) and parts.meta == whole.meta
+    for count in ("steps", "rejected"):
+        assert parts.summary[count] == whole.summary[count]
 
 
 @pytest.mark.parametrize("method", METHODS)

@@ -66,6 +66,17 @@ def test_every_exact_format_keeps_what_it_writes(suffix: str, sample: str, tmp_p
     write_read(formats.formats()[suffix], SAMPLES[sample], tmp_path / f"a{suffix}")
 
 
+@pytest.mark.parametrize("suffix", EXACT)
+def test_files_of_a_run_have_the_same_bytes_each_time(suffix: str, tmp_path: Path) -> None:
+    """Its CPU seconds are in none of them."""
+    files = []
+    for cpu in (0.1, 0.2):
+        path = tmp_path / f"run{suffix}"
+        fall(summary={"steps": 7, "setup_cpu_s": cpu, "solve_cpu_s": 2 * cpu}).save(path)
+        files.append(path.read_bytes())
+    assert files[0] == files[1]
+
+
 @pytest.mark.parametrize("suffix", sorted(formats.formats()))
 def test_a_failed_write_leaves_the_file_as_it_was(suffix: str, tmp_path: Path) -> None:
     path = tmp_path / f"a{suffix}"

@@ -83,6 +83,19 @@ END
 """
 
 
+def spring(end: float, steps: int) -> str:
+    return f"""\
+a mass on a spring
+PART/1, GROUND
+MARKER/1, PART=1
+POINT_MASS/2, MASS=1, QG=1,0,0, CM=2
+MARKER/2, POINT_MASS=2
+SPRINGDAMPER/1, TRANSLATION, I=2, J=1, K=1, LENGTH=0.5
+SIMULATE/DYNAMIC, END={end}, STEPS={steps}
+END
+"""
+
+
 def sensed(end: float, steps: int) -> str:
     """The swing, whose SENSOR ends a run, and begins another, whenever a bar passes the line."""
     sensor = "SENSOR/1, FUNCTION=DY(4,1), VALUE=0, ERROR=1E-6, GE, PRINT\n"
@@ -144,6 +157,7 @@ CASES = {
     "sensors": (sensed(300, 6000), "--integrator", "GSTIFF", "--error", "1e-6"),
     "equilibria between": (between_equilibria(1500, 8000), "--error", "1e-6"),
     "joints that are drawn open": (assembled(700, 4000), "--error", "1e-6"),
+    "confirmed": (spring(2000, 20000), "--error", "1e-6", "--confirm"),
     "NetCDF": (pendulum(400, 8000), "--integrator", "RKF45"),
     "some columns": (pendulum(1000, 20000), "--outputs", "REQUEST/*", "--integrator", "HHT"),
     "an audit": (pendulum(500, 8000), "--integrator", "GSTIFF", "--audit"),

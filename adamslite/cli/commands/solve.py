@@ -12,6 +12,7 @@ are called stdin.csv, and it reads tables from the current directory and below.
 """
 
 import argparse
+import os
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -61,7 +62,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     parser.add_argument(
         "--resume", metavar="OUT.part", type=Path,
-        help="go on with a run that was ended, as it was requested; other flags are not repeated",
+        help="go on with a run that was ended, as it was requested; limits alone may be given anew",
     )  # fmt: skip
     parser.add_argument(
         "--trust", action="store_true",

@@ -216,12 +216,9 @@ def stable_in_contact(P: Problem, C: Control, t: float, h: float) -> float:
 @native
 def cover(P: Problem, L: Plan, C: Control, t: float, end: float) -> int:
     """From one output time or stop to the next by equal steps; returns an outcome."""
-    n, fixed = P.sizes.n, C.fixed
-    old = P.history[9 * P.sizes.nb :]
+    fixed, old = C.fixed, P.history[9 * P.sizes.nb :]
     if C.step == 0:
-        for i in range(n):
-            old[i], old[n + i] = P.q[i], P.u[i]
-        keep_audit(P)
+        keep_start(P, old)
     wanted, blown = min(C.wanted if C.tried == 0.0 else C.tried, longest_step(P)), C.blown
     least = min(P.settings.h_min, longest_step(P))
     while C.step > 0 or not P.settings.stop:
@@ -257,10 +254,26 @@ def cover(P: Problem, L: Plan, C: Control, t: float, end: float) -> int:
         if error <= 1.0:
             wanted = min(0.5 * h, IN_CONTACT * stable)
         C.tried, C.blown = wanted, blown
-        for i in range(n):
-            P.q[i], P.u[i] = old[i], old[n + i]
-        bring_audit_back(P)
+        go_back(P, old)
     return INTERRUPTED
+
+
+@native
+def keep_start(P: Problem, old: Reals) -> None:
+    """Where tries of an interval begin."""
+    n = P.sizes.n
+    for i in range(n):
+        old[i], old[n + i] = P.q[i], P.u[i]
+    keep_audit(P)
+
+
+@native
+def go_back(P: Problem, old: Reals) -> None:
+    """Return there."""
+    n = P.sizes.n
+    for i in range(n):
+        P.q[i], P.u[i] = old[i], old[n + i]
+    bring_audit_back(P)
 
 
 @native
