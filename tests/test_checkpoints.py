@@ -52,7 +52,7 @@ def test_verlet_is_held_between_outputs(
 ) -> None:
     """States are asked for all the time in an output interval; none changes a number."""
     given = f"INTEGRATOR/VERLET{', ' * bool(words)}{words}\n"
-    text = chain(600, 2).replace("SIMULATE", f"{given}SIMULATE")
+    text = chain(150, 2).replace("SIMULATE", f"{given}SIMULATE")
     whole, inside = al.simulate(al.read(text)), []
     write = checkpoint.write
 

@@ -40,7 +40,6 @@ from adamslite.integrators.events.stops import (
     present_stop,
     set_pace,
 )
-from adamslite.integrators.linalg.norms import exceeds
 from adamslite.integrators.linalg.plan import HUGE, Plan
 from adamslite.integrators.motion_equations import put_time, run_groups, track
 from adamslite.integrators.records import has_room, write_record
@@ -55,6 +54,7 @@ from adamslite.integrators.verlet.sampling import (
     HOPELESS,
     LARGE,
     leave,
+    local_error,
     note_steps,
     steps_per_estimate,
 )
@@ -375,22 +375,6 @@ def kick_and_drift(P: Problem, kick: float, drift: float) -> None:
         W[o + 3], W[o + 4], W[o + 5] = u, v, w
         W[o], W[o + 1], W[o + 2] = W[o] + drift * u, W[o + 1] + drift * v, W[o + 2] + drift * w
         F[i], F[i + 1], F[i + 2] = -m * gx, -m * gy, -m * gz
-
-
-@native
-def local_error(P: Problem, h: float) -> float:
-    """h^2 |a - earlier a|/6 against ERROR max(1, |q|)."""
-    top = 0.0
-    for b in range(P.sizes.nb):
-        i, o = P.body[b].first, P.body[b].at
-        for k in range(3):
-            change = abs(P.a[i + k] - P.ra[i + k])
-            weight = max(1.0, abs(P.W[o + k]))
-            if exceeds(change, top * weight):
-                top = change / weight
-    if not top < LARGE:
-        return HUGE
-    return top * h * h / (6.0 * P.settings.error)
 
 
 @native

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
+from adamslite.integrators.linalg.norms import exceeds
 from adamslite.integrators.linalg.plan import HUGE
 from adamslite.integrators.verlet.control import Control
 from adamslite.native.translate import native, rare
@@ -25,6 +26,22 @@ def steps_per_estimate(P: Problem, C: Control, h: float) -> int:
     if C.fixed:
         return FIXED_SAMPLE
     return SAMPLE if P.sizes.watched == 0 and 2.0 * h > C.limit else 1
+
+
+@native
+def local_error(P: Problem, h: float) -> float:
+    """h^2 |a - earlier a|/6 against ERROR max(1, |q|)."""
+    top = 0.0
+    for b in range(P.sizes.nb):
+        i, o = P.body[b].first, P.body[b].at
+        for k in range(3):
+            change = abs(P.a[i + k] - P.ra[i + k])
+            weight = max(1.0, abs(P.W[o + k]))
+            if exceeds(change, top * weight):
+                top = change / weight
+    if not top < LARGE:
+        return HUGE
+    return top * h * h / (6.0 * P.settings.error)
 
 
 @native
