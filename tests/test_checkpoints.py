@@ -46,8 +46,11 @@ def test_where_blocks_end_changes_no_number(
 
 @pytest.mark.parametrize(
     ("words", "end"),
-    [("", 600), ("HINIT=2E-3", 400), ("ERROR=1E-7", 120)],
-    ids=["", "equal steps", "short steps"],
+    [
+        pytest.param("", 600, id=""),
+        pytest.param("HINIT=2E-3", 400, id="equal steps"),
+        pytest.param("ERROR=1E-7", 120, id="short steps", marks=pytest.mark.slow),
+    ],
 )
 def test_verlet_is_held_between_outputs(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: str, end: float
