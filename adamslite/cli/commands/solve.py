@@ -200,11 +200,11 @@ def _journal(
 def _unkept(scene: "Scene", output: str, part: Path) -> "Journal | None":
     """What becomes of the rows of a run that cannot be resumed."""
     from adamslite.analyses.history import Unkept
-    from adamslite.language.text import is_piped
+    from adamslite.language.text import STDIN
     from adamslite.outputs.whole_files import same_file
 
     written = Path(output)
-    if is_piped(scene.deck_path):
+    if str(scene.deck_path) == STDIN:
         return Unkept("its deck could not be read again", None)
     if output == STDOUT:
         return Unkept("its results go to standard output", None)
