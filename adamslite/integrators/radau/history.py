@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 # Rows of y: the start of the step, behind it its stages; the start with q as it is; rates of the
-# stages (of the first RATES + 1); the step before.
+# stages (those of the first one are RATES + 1); the step before.
 ORIGIN, RATES, BEFORE, Y_ROWS = 4, 4, 8, 12
 # What a step is known by: its start and its stages, of y and of z; rates follow.
 KEPT_ROWS, KEPT_Z = 5, 3

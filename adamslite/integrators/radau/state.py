@@ -5,7 +5,7 @@ from __future__ import annotations
 from adamslite.integrators.accelerations import put_state
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.radau.control import Control
-from adamslite.integrators.radau.history import ORIGIN
+from adamslite.integrators.radau.history import ORIGIN, RATES
 from adamslite.integrators.radau.stages import stage_z
 from adamslite.native.translate import native, seldom
 
@@ -30,7 +30,7 @@ def put_end(P: Problem, C: Control) -> None:
     """The end of the tried step into the unknowns and the workspace."""
     n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     w, Y, z = 2 * n + ns, P.history, P.history[stage_z(P, 2) :]
-    y, d = Y[3 * w :], Y[6 * w :]
+    y, d = Y[3 * w :], Y[(RATES + 3) * w :]
     for i in range(n):
         P.q[i], P.u[i], P.a[i] = Y[ORIGIN * w + i] + y[i], y[n + i], d[n + i]
     for k in range(first + ns):
