@@ -10,6 +10,7 @@ write texts, and end processes.
 from __future__ import annotations
 
 import os
+import signal
 import sys
 import time
 from collections.abc import Iterator
@@ -53,6 +54,8 @@ def pytest_configure(config: pytest.Config) -> None:
     """A test that is named is run in whatever tier it is."""
     if config.option.markexpr == "not slow" and all("::" in name for name in config.args):
         config.option.markexpr = ""
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # as nohup has it: tests press Ctrl-C
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.hookimpl(optionalhook=True)

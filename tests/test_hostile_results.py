@@ -190,6 +190,7 @@ def test_a_long_comment_of_a_results_file_is_read_once(tmp_path: Path) -> None:
     assert process_time() - start < 40.0 * max(plain, 0.1)
 
 
+@pytest.mark.slow
 def test_elements_that_are_no_results_are_not_kept(tmp_path: Path) -> None:
     path = tmp_path / "a.res"
     path.write_text(f"<Results {SPACE}>{'<a><b/></a>' * 200_000}</Results>")

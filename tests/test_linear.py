@@ -154,3 +154,28 @@ def test_scales_beyond_all_integers_raise_no_warning() -> None:
     a = np.array([[3.46e-28, 8.2e-31, 0.33], [0, 0.09, 4.5e-13], [0, 0, 3.6e-16]])
     scale = balance(a)
     assert np.isfinite(scale).all() and scale.max() / scale.min() > 2.0**63
+
+
+PENDULUM = """\
+a pendulum, drawn level
+ACCGRAV/JGRAV=-9.81
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS=1, CM=20, IP=0.1,0.1,0.1
+MARKER/2, PART=2
+MARKER/20, PART=2, QP=1,0,0
+JOINT/1, REVOLUTE, I=2, J=1
+SIMULATE/STATICS
+SIMULATE/DYNAMIC, END=0.1, STEPS=1
+END
+"""
+
+
+def test_modes_without_commands_are_those_about_the_equilibrium_of_the_deck() -> None:
+    """omega^2 = m g l / (J + m l^2) below the pivot, where it rests; 0 where it is drawn."""
+    hanging = adamslite.linearize(adamslite.read(PENDULUM))
+    assert abs(hanging.eigenvalues[0].imag) == pytest.approx(sqrt(9.81 / 1.1), rel=1e-6)
+    drawn = adamslite.linearize(adamslite.read(PENDULUM), time=0)
+    assert abs(drawn.eigenvalues[0]) < 1e-2
+    only_moving = PENDULUM.replace("SIMULATE/STATICS\n", "")
+    assert abs(adamslite.linearize(adamslite.read(only_moving)).eigenvalues[0]) < 1e-2

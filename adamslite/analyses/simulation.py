@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
+from itertools import takewhile
 from math import inf
 from numbers import Real
 from typing import TYPE_CHECKING, Any
@@ -21,6 +22,7 @@ from adamslite.analyses.slack import compressed
 from adamslite.analyses.subject import deck_of, prepared_for
 from adamslite.deck.element_switch import Switch
 from adamslite.deck.redefinition import Redefinition
+from adamslite.elements.simulate import Simulate
 from adamslite.equations.result_columns import column_names
 from adamslite.equations.unknown_names import placed
 from adamslite.errors import RunFailed, UsageError
@@ -206,9 +208,10 @@ def linearize(
 ) -> Linearization:
     """The model about one state: at the end of the commands, or integrated to ``time``.
 
-    Without commands, and without SIMULATE in the deck, the assembled start is taken as it is.  A
-    LINEAR command decides state and observer; otherwise, and with ``rm``, a MARKER on whose body
-    the observer stands, it is the last state.  ``limits`` are those of :func:`simulate`.
+    Without commands it is the equilibrium that the deck's own SIMULATE statements begin with, else
+    the assembled start.  A LINEAR command decides state and observer; otherwise, and with ``rm``, a
+    MARKER on whose body the observer stands, it is the last state.  ``limits`` are those of
+    :func:`simulate`.
 
     Raises
     ------
@@ -223,7 +226,9 @@ def linearize(
     deck = deck_of(scene)
     marker = None if rm is None else _marker(deck, str(rm))
     settings = (s for s in deck.statements if s.keyword in ("INTEGRATOR", "EQUILIBRIUM"))
-    plan: list[Command] = [*settings, *commands, *([dynamics(time)] if time else [])]
+    commands = tuple(commands)
+    own = _at_first(deck) if time is None and not commands else ()
+    plan: list[Command] = [*settings, *own, *commands, *([dynamics(time)] if time else [])]
     budget, memory = budget_of(checked(limits))
     with within_memory(memory):
         session = Session(prepared_for(scene, plan), None, {}, frozenset({MERGED}), budget=budget)
@@ -238,6 +243,11 @@ def linearize(
             return interruptible(about, over=budget.over)
         except Overspent:
             raise RunFailed(Outcome.CPU_LIMIT.sentence) from None
+
+
+def _at_first(deck: Deck) -> Iterator[Command]:
+    """What the deck's own SIMULATE statements do before anything moves."""
+    return takewhile(lambda each: each.at_once, deck.of(Simulate))
 
 
 def _need_time(time: object) -> None:

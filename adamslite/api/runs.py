@@ -125,15 +125,17 @@ def linearize(
 ) -> Linearization:
     """The model about one state, as `adamslite linear` finds it.
 
-    Without commands, and without SIMULATE in the deck, the assembled start is taken as it is.  A
-    LINEAR command decides state and observer; otherwise it is the last state.
+    Without commands it is the equilibrium that the deck's own SIMULATE statements begin with, else
+    the assembled start.  A LINEAR command decides state and observer; otherwise it is the last
+    state.
 
     Parameters
     ----------
     scene, commands, user, cpu_limit, max_steps, memory_limit
         As for :func:`simulate`.
     time : float
-        The motion is followed up to this time.
+        The motion is followed up to this time; without commands from the assembled start, which
+        0 is.
     rm : int or str
         A MARKER on whose body the observer stands.
 

@@ -1,12 +1,13 @@
 """eigenvalues and modes of small motions
 
 Prints number, undamped frequency, damping ratio and eigenvalue of every mode about the state the
-commands lead to: COMMANDS.acf, else the .acf of the deck's name beside the deck, else the deck's
-own SIMULATE. Without any of them it is the initial state. With --time the motion is followed up
-to T. With --rm MARKER motions are those that an observer on its body sees; without, what the last
-LINEAR command requires, else those seen from the ground. A line below the table says where the
-linear system varies with time. FILE.csv takes the table, FILE.json everything: mode shapes and
-state matrix too.
+commands lead to: COMMANDS.acf, else the .acf of the deck's name beside the deck. Without either it
+is the equilibrium that the deck's own SIMULATE statements begin with, else the initial state. With
+--time the motion is followed up to T from there, or from the initial state without commands:
+--time 0 is the initial state. With --rm MARKER motions are those that an observer on its body
+sees; without, what the last LINEAR command requires, else those seen from the ground. A line below
+the table says where the linear system varies with time. FILE.csv takes the table, FILE.json
+everything: mode shapes and state matrix too.
 """
 
 import argparse
