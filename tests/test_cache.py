@@ -8,7 +8,8 @@ import os
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -180,6 +181,18 @@ def test_an_entry_that_cannot_be_read_is_made_each_time(cache, caplog) -> None:
 
 
 # ---- entries are written whole ----------------------------------------------------------------
+
+
+def test_what_another_process_makes_just_before_is_taken(cache, monkeypatch) -> None:
+    """It has ended between the look into the folder and the lock."""
+
+    @contextmanager
+    def late(name: str) -> Iterator[None]:
+        entries.keep(name, b"theirs")
+        yield
+
+    monkeypatch.setattr("adamslite.caching.alone.alone", late)
+    assert recall("an-entry", lambda: b"ours") == b"theirs"
 
 
 def test_content_is_on_the_disk_before_it_gets_its_name(cache, monkeypatch) -> None:

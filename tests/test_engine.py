@@ -298,7 +298,8 @@ def test_those_runs_reach_every_native_function(called):
     reached = set().union(*(defined(part) for name in ENTRIES for part in engine_parts(name)))
     assert "integrators.records.write_record" in reached
     tape = {f"integrators.audit.tape.{name}" for name in TAPE}
-    missed = reached - {name.removeprefix(engine.HERE) for name in ENTRIES} - called - tape
+    kept = {"integrators.verlet.sampling.leave"}  # of runs that are kept: see test_checkpoints
+    missed = reached - {name.removeprefix(engine.HERE) for name in ENTRIES} - called - tape - kept
     assert not missed, sorted(missed)
 
 

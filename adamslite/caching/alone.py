@@ -15,17 +15,17 @@ PATIENCE, PAUSE = 120.0, 0.02
 
 
 @contextmanager
-def alone(name: str) -> Iterator[bool]:
-    """Inside, no other process makes the entry of this name; whether one had to be waited for.
+def alone(name: str) -> Iterator[None]:
+    """Inside, no other process makes the entry of this name; one may have made it before.
 
     Where files cannot be locked (Windows, some networks) everyone makes it.
     """
     path = cache_folder() / f".{name}.lock"
-    lock, waited = _taken(path)
+    lock = _taken(path)
     if lock is not None:
         _held[path] = os.getpid()
     try:
-        yield waited
+        yield
     finally:
         if lock is not None:
             _held.pop(path, None)
@@ -46,24 +46,23 @@ def let_go() -> None:
                 path.unlink()
 
 
-def _taken(path: Path) -> tuple[int | None, bool]:
-    """The file that is locked, None where none can be, and whether another process had it."""
-    end, waited = time.monotonic() + PATIENCE, False
+def _taken(path: Path) -> int | None:
+    """The file that is locked, None where none can be."""
+    end = time.monotonic() + PATIENCE
     while time.monotonic() < end:
         try:
             file = os.open(path, os.O_RDWR | os.O_CREAT, 0o600)
         except OSError:
-            return None, waited
+            return None
         try:
             if _lock(file) and _is_there(file, path):
-                return file, waited
+                return file
         except (ImportError, OSError):
             os.close(file)
-            return None, waited
+            return None
         os.close(file)
-        waited = True
         time.sleep(PAUSE)
-    return None, waited
+    return None
 
 
 def _lock(file: int) -> bool:

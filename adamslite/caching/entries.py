@@ -46,23 +46,27 @@ def recall(name: str, make: Callable[[], bytes]) -> bytes:
     if content is None:
         from adamslite.caching.alone import alone  # most entries are there
 
-        with alone(name) as waited:
-            content = find(name) if waited else None
+        with alone(name):
+            # Another process may have made it since, waited for or not.
+            content = find(name, again=True)
             if content is None:
                 content = make()
                 keep(name, content)
     return content
 
 
-def find(name: str) -> bytes | None:
-    """The content kept under ``name``, verified; None when there is none or it fails."""
+def find(name: str, again: bool = False) -> bytes | None:
+    """The content kept under ``name``, verified; None when there is none or it fails, which is not
+    said ``again``.
+    """
     path = cache_folder() / name
     try:
         content = unsealed(name, _own_bytes(path))
     except FileNotFoundError:
         return None
     except (Damaged, OSError) as fault:
-        warn(f"the cache entry {path} is rebuilt: {getattr(fault, 'strerror', None) or fault}")
+        if not again:
+            warn(f"the cache entry {path} is rebuilt: {getattr(fault, 'strerror', None) or fault}")
         return None
     _note_use(path)
     return content
