@@ -48,26 +48,34 @@ def recall(name: str, make: Callable[[], bytes]) -> bytes:
 
         with alone(name):
             # Another process may have made it since, waited for or not.
-            content = find(name, again=True)
+            content = made_since(name)
             if content is None:
                 content = make()
                 keep(name, content)
     return content
 
 
-def find(name: str, again: bool = False) -> bytes | None:
-    """The content kept under ``name``, verified; None when there is none or it fails, which is not
-    said ``again``.
-    """
+def find(name: str) -> bytes | None:
+    """The content kept under ``name``, verified; None when there is none or it fails."""
     path = cache_folder() / name
     try:
-        content = unsealed(name, _own_bytes(path))
+        return _verified(path)
     except FileNotFoundError:
         return None
     except (Damaged, OSError) as fault:
-        if not again:
-            warn(f"the cache entry {path} is rebuilt: {getattr(fault, 'strerror', None) or fault}")
+        warn(f"the cache entry {path} is rebuilt: {getattr(fault, 'strerror', None) or fault}")
         return None
+
+
+def made_since(name: str) -> bytes | None:
+    """The same without a word about one that fails, of which :func:`find` has spoken."""
+    with suppress(Damaged, OSError):
+        return _verified(cache_folder() / name)
+    return None
+
+
+def _verified(path: Path) -> bytes:
+    content = unsealed(path.name, _own_bytes(path))
     _note_use(path)
     return content
 
