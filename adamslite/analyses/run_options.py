@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Any
 
 from adamslite.elements.integrator import Integrator
 from adamslite.errors import RunFailed, UsageError
-from adamslite.language.likeness import did_you_mean
 from adamslite.results.outcomes import Outcome
 
 if TYPE_CHECKING:
@@ -111,6 +110,8 @@ def _count(name: str, value: object) -> int:
 def _one_of(name: str, value: object, known: Sequence[str]) -> str:
     word = str(value).upper()
     if word not in known:
+        from adamslite.language.likeness import did_you_mean
+
         hint = did_you_mean(word, known)
         raise UsageError(
             f"--{name} {value}: there are {', '.join(known)}" + f"; {hint}" * bool(hint)

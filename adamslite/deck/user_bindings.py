@@ -31,7 +31,6 @@ from typing import TYPE_CHECKING, Any
 from adamslite.deck.names import to_number
 from adamslite.errors import UsageError
 from adamslite.language.interfaces import key_of
-from adamslite.language.likeness import did_you_mean
 from adamslite.language.routines import short_name
 from adamslite.language.statement import STATEMENTS
 
@@ -170,6 +169,8 @@ def _enter(found: Bindings, name: str, binding: Binding) -> None:
 
     cls = match(kind.strip().upper(), STATEMENTS)
     if not isinstance(cls, type):
+        from adamslite.language.likeness import did_you_mean
+
         hint = did_you_mean(kind, STATEMENTS)
         raise UsageError(f"--user {name}: there is no statement {kind}" + f"; {hint}" * bool(hint))
     place = cls.keyword, word.strip().upper()
@@ -231,6 +232,8 @@ def _imported(name: str, module_name: str, path: str) -> Callable[..., Any]:
         sys.path.remove(here)
     for word in path.split("."):
         if not hasattr(value, word):
+            from adamslite.language.likeness import did_you_mean
+
             hint = did_you_mean(word, [each for each in vars(value) if not each.startswith("_")])
             raise UsageError(f"{said}: there is no {word}" + f"; {hint.lower()}" * bool(hint))
         value = getattr(value, word)
