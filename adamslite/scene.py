@@ -12,7 +12,7 @@ from adamslite.language.text import PIPED, STDIN, is_piped, piped
 from adamslite.progress import Progress
 
 if TYPE_CHECKING:  # numpy is not needed to check a deck
-    from adamslite.analyses.history import Journal
+    from adamslite.analyses.dynamics.history import Journal
     from adamslite.deck.commands import Commands
     from adamslite.deck.deck import Deck
     from adamslite.deck.user_bindings import Given

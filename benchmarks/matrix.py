@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 
 import adamslite
-from adamslite.analyses.output_times import output_times
+from adamslite.analyses.setup.output_times import output_times
 from adamslite.errors import UsageError
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results

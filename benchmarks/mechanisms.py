@@ -158,7 +158,7 @@ def text(scene: str, n: int) -> str:
 def mechanism(scene: str, n: int) -> Mechanism:
     """Bodies and joints of a deck, assembled."""
     from adamslite import assemble, read
-    from adamslite.analyses.session import Session
+    from adamslite.analyses.session.session import Session
 
     model = assemble(read(text(scene, n)))
     system = Session(model, None, {}).system

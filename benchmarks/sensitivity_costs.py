@@ -16,8 +16,8 @@ from statistics import median
 from typing import Any
 
 import adamslite as al
-from adamslite.analyses.begun_again import Beginning
-from adamslite.analyses.dynamic import integrate, make_ready
+from adamslite.analyses.dynamics.begun_again import Beginning
+from adamslite.analyses.dynamics.dynamic import integrate, make_ready
 from adamslite.results.outcomes import Outcome
 from adamslite.sensitivity import taped
 from adamslite.sensitivity.study import PLANAR, Study

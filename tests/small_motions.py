@@ -19,9 +19,9 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from adamslite.analyses.dynamic import integrate, make_ready
+from adamslite.analyses.dynamics.dynamic import integrate, make_ready
 from adamslite.analyses.initial.conditions import initial_conditions, move
-from adamslite.analyses.session import Session
+from adamslite.analyses.session.session import Session
 from adamslite.model.model import PART
 from adamslite.results.outcomes import Outcome
 

@@ -9,9 +9,9 @@ import pytest
 from scenes import GROUND, done
 
 import adamslite as al
-from adamslite.analyses.accuracy_notes import _added_up, longest_way
-from adamslite.analyses.dynamic import Settings
-from adamslite.analyses.history import History, Piece
+from adamslite.analyses.dynamics.dynamic import Settings
+from adamslite.analyses.dynamics.history import History, Piece
+from adamslite.analyses.findings.accuracy_notes import _added_up, longest_way
 from adamslite.deck.python_routine import reads
 from adamslite.results.run_error import error_of
 

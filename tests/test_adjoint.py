@@ -11,7 +11,7 @@ import pytest
 from scenes import BALL_ON_A_FLOOR
 
 import adamslite as al
-from adamslite.analyses.session import Session
+from adamslite.analyses.session.session import Session
 from adamslite.equations.engine import address_of
 from adamslite.errors import UsageError
 from adamslite.integrators.contract import ACCELERATION as EQUATIONS

@@ -13,7 +13,7 @@ from tiers import fast
 import adamslite as al
 from adamslite.analyses.initial.redundancy import row_name
 from adamslite.analyses.initial.rows import constraint_gradient
-from adamslite.analyses.session import Session
+from adamslite.analyses.session.session import Session
 from adamslite.assembly.closing import close, moved
 from adamslite.assembly.rank import dependent_of_many, dependent_rows, unit_rows
 from adamslite.assembly.rows import gradient, sparse_gradient, values

@@ -11,9 +11,9 @@ import pytest
 from unfinished_scenes import box, chain, pendulum
 
 import adamslite as al
-from adamslite.analyses import checkpoint, dynamic, history
-from adamslite.analyses.history import History, Journal, Piece
-from adamslite.analyses.session import Session
+from adamslite.analyses.dynamics import checkpoint, dynamic, history
+from adamslite.analyses.dynamics.history import History, Journal, Piece
+from adamslite.analyses.session.session import Session
 from adamslite.analyses.simulation import simulate
 from adamslite.elements.simulate import Simulate
 from adamslite.equations.system import System
@@ -107,7 +107,7 @@ def test_a_state_holds_what_native_code_changes(
         assert set(reals) <= kept
         return outcome
 
-    monkeypatch.setattr("adamslite.analyses.session.integrate", compared)
+    monkeypatch.setattr("adamslite.analyses.session.session.integrate", compared)
     session = Session(deck, None, {"method": method})
     session.execute(deck.of(Simulate))
     assert session.outcome is Outcome.DONE and any(changed)

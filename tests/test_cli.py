@@ -12,7 +12,7 @@ import pytest
 from fakes import ERROR, SIMULATE, fall, install, stopped
 
 import adamslite
-from adamslite.analyses.session import Session
+from adamslite.analyses.session.session import Session
 from adamslite.cli import commands
 from adamslite.cli.main import ALL_THREADS, COMMANDS, THREADS, command_parsers, main
 from adamslite.elements.joint import Joint

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from adamslite.analyses.output_times import output_times
+from adamslite.analyses.setup.output_times import output_times
 from adamslite.deck.commands import Commands
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Redefinition

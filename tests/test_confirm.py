@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scenes import GROUND, PENDULUM, SPRING, run
 
-from adamslite.analyses.confirmation import confirmation
+from adamslite.analyses.findings.confirmation import confirmation
 from adamslite.cli.main import main
 from adamslite.resources import find
 from adamslite.results.confirmation import Channel, Confirmation

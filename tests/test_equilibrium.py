@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import adamslite as al
-from adamslite.analyses import static
+from adamslite.analyses.statics import static
 from adamslite.native import worker
 
 PENDULUM = """a pendulum of length 1 at rest at {x}, {y}

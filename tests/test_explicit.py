@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import adamslite as al
-from adamslite.analyses import dynamic
-from adamslite.analyses.dynamic import Settings
+from adamslite.analyses.dynamics import dynamic
+from adamslite.analyses.dynamics.dynamic import Settings
 from adamslite.equations.system import System
 from adamslite.errors import UsageError
 from adamslite.results.outcomes import Outcome

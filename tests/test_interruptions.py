@@ -94,7 +94,7 @@ def test_an_interruption_at_the_end_of_a_run_is_not_lost(monkeypatch) -> None:
     from scenes import SPRING
 
     import adamslite as al
-    from adamslite.analyses import dynamic
+    from adamslite.analyses.dynamics import dynamic
     from adamslite.native.worker import Worker
 
     monkeypatch.setattr(dynamic, "UNWATCHED", 1.0)

@@ -18,7 +18,7 @@ from replacing import replaced
 
 import adamslite
 from adamslite import kept_scene, resources, scene
-from adamslite.analyses import kept_kernels, subject
+from adamslite.analyses.setup import kept_kernels, subject
 from adamslite.api import inputs
 from adamslite.caching import objects
 from adamslite.caching.folder import cache_folder

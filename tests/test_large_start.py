@@ -12,7 +12,7 @@ import adamslite as al
 from adamslite.analyses.initial import least_change, redundancy
 from adamslite.analyses.initial.redundancy import badly_chosen, redundant_rows
 from adamslite.analyses.initial.rows import constraint_gradient, weights
-from adamslite.analyses.session import Session
+from adamslite.analyses.session.session import Session
 from adamslite.assembly.rank import unit_rows
 from adamslite.equations.system import System
 from adamslite.kernels.compile import Kernels

@@ -15,7 +15,7 @@ from small_motions import Flow, distance
 
 import adamslite
 from adamslite.analyses.linearization.linearization import linear
-from adamslite.analyses.session import Session
+from adamslite.analyses.session.session import Session
 from adamslite.elements.simulate import Simulate
 from adamslite.results.outcomes import Outcome
 

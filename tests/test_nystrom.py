@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from adamslite import read, simulate
-from adamslite.analyses import dynamic
+from adamslite.analyses.dynamics import dynamic
 from adamslite.equations import system as equations
 from adamslite.integrators.explicit.nystrom import NODES, Q_SCALE, STAGES, U_SCALE
 from tests.test_lanes import BY_COMPONENT, chain, growing

@@ -13,8 +13,8 @@ from scenes import GROUND, chain, done, run
 
 import adamslite as al
 from adamslite import Outcome
-from adamslite.analyses import dynamic
-from adamslite.analyses.output_times import spread_times
+from adamslite.analyses.dynamics import dynamic
+from adamslite.analyses.setup.output_times import spread_times
 from adamslite.cli.main import main
 from adamslite.errors import UsageError
 from adamslite.integrators.stepping.budget import MOST_CREPT

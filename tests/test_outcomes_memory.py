@@ -14,9 +14,10 @@ from scenes import GROUND, done, run
 
 import adamslite as al
 from adamslite import Outcome, machine
-from adamslite.analyses import run_size, session, session_state
-from adamslite.analyses.output_times import rows_of
-from adamslite.analyses.run_options import size_of
+from adamslite.analyses.session.session import session, session_state
+from adamslite.analyses.setup import run_size
+from adamslite.analyses.setup.output_times import rows_of
+from adamslite.analyses.setup.run_options import size_of
 from adamslite.cli.main import main
 from adamslite.elements.simulate import Simulate
 from adamslite.errors import RunFailed, UsageError
@@ -55,7 +56,7 @@ def test_the_estimate_is_what_a_run_takes(deck: str, monkeypatch: pytest.MonkeyP
     """Within a third, and not less."""
     found: list[int] = []
     monkeypatch.setattr(run_size, "_need", lambda what, need, *_: found.append(need))
-    monkeypatch.setattr("adamslite.analyses.output_times.SMALL", 0)
+    monkeypatch.setattr("adamslite.analyses.setup.output_times.SMALL", 0)
     done(deck, 1.0, 10)
     tracemalloc.start()
     try:

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from adamslite.analyses.history import History, Piece
+from adamslite.analyses.dynamics.history import History, Piece
 from adamslite.errors import FormatError, UsageError
 from adamslite.outputs.part_file import FIRST, RECORDS, PartFile
 

@@ -125,6 +125,6 @@ def test_a_run_of_a_piped_deck_keeps_no_file(piped, monkeypatch) -> None:
     def kept(*_: object) -> None:
         raise AssertionError
 
-    monkeypatch.setattr("adamslite.analyses.history.Journal", kept)
+    monkeypatch.setattr("adamslite.analyses.dynamics.history.Journal", kept)
     piped(SPRING)
     assert main(["solve", "-", *RUN]) == 0

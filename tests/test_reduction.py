@@ -9,8 +9,8 @@ from newton_matrix import Newton
 from tiers import every
 
 import adamslite
-from adamslite.analyses import planar_reduction
-from adamslite.analyses.session import Session
+from adamslite.analyses.dynamics import planar_reduction
+from adamslite.analyses.session.session import Session
 from adamslite.cli.main import main
 from adamslite.errors import UsageError
 from adamslite.model.reduction import RULES

@@ -59,6 +59,11 @@ drawing.gltf
 page
 analyses.clock analyses.initial
 analyses.linearization
+analyses.setup
+analyses.dynamics
+analyses.statics
+analyses.findings
+analyses.session
 analyses
 run_flags
 kept_scene

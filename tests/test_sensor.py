@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from adamslite import Outcome, Results, read, simulate
-from adamslite.analyses import sensors
-from adamslite.analyses.session_state import SessionState
+from adamslite.analyses.dynamics import sensors
+from adamslite.analyses.session.session_state import SessionState
 from adamslite.cli.main import main
 from adamslite.errors import UsageError
 from adamslite.reading.read import read_commands

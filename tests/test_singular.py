@@ -10,7 +10,7 @@ from tiers import every
 
 import adamslite
 from adamslite.analyses.initial.redundancy import badly_chosen
-from adamslite.analyses.session import Session
+from adamslite.analyses.session.session import Session
 from adamslite.results.outcomes import Outcome
 from benchmarks import decks, mechanisms
 from benchmarks.peers.ours import four_bar_energy

@@ -15,7 +15,7 @@ import pytest
 from unfinished_runs import OFTEN, command, solved
 from unfinished_scenes import pendulum, written
 
-from adamslite.analyses.checkpoint import begin
+from adamslite.analyses.dynamics.checkpoint import begin
 from adamslite.caching import secret
 from adamslite.cli.main import main
 from adamslite.outputs.part_file import FIRST, RECORD, RECORDS, PartFile

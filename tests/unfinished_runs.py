@@ -13,7 +13,7 @@ from pathlib import Path
 #: The command line with states from the start on, and small blocks.
 OFTEN = """\
 import sys
-from adamslite.analyses import dynamic, history
+from adamslite.analyses.dynamics import dynamic, history
 history.SETTLED, history.EVERY, history.LONG, dynamic.ROOM = 0.0, 0.02, 0.3, 3000
 dynamic.WATCH_INTERVAL = 0.02
 from adamslite.__main__ import main

@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from adamslite.analyses.accuracy_notes import accuracy_notes
-from adamslite.analyses.buckling import buckled
-from adamslite.analyses.output_times import SETTINGS, dynamics, need_room, plan_of
-from adamslite.analyses.run_options import Budget, budget_of, checked, within_memory
-from adamslite.analyses.session import Session
-from adamslite.analyses.slack import compressed
-from adamslite.analyses.subject import deck_of, prepared_for
+from adamslite.analyses.findings.accuracy_notes import accuracy_notes
+from adamslite.analyses.findings.buckling import buckled
+from adamslite.analyses.findings.slack import compressed
+from adamslite.analyses.session.session import Session
+from adamslite.analyses.setup.output_times import SETTINGS, dynamics, need_room, plan_of
+from adamslite.analyses.setup.run_options import Budget, budget_of, checked, within_memory
+from adamslite.analyses.setup.subject import deck_of, prepared_for
 from adamslite.deck.element_switch import Switch
 from adamslite.deck.redefinition import Redefinition
 from adamslite.elements.simulate import Simulate
@@ -40,8 +40,8 @@ from adamslite.results.source import source_of
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from adamslite.analyses.history import History, Journal
-    from adamslite.analyses.subject import Subject
+    from adamslite.analyses.dynamics.history import History, Journal
+    from adamslite.analyses.setup.subject import Subject
     from adamslite.deck.deck import Deck
     from adamslite.deck.redefinition import Command
     from adamslite.language.interfaces import Key
@@ -165,7 +165,7 @@ def _limited(results: Results, wanted: tuple[str, ...]) -> Results:
 
 def explained(session: Session) -> str:
     """Why a run has ended early."""
-    from adamslite.analyses.failure_report import explain
+    from adamslite.analyses.findings.failure_report import explain
 
     return explain(session.system, session.outcome, session.unclosed)
 
@@ -192,7 +192,7 @@ def _sets_up(command: Command) -> bool:
 
 def _confirmed(results: Results, session: Session, again: Callable[..., Results]) -> Results:
     """The results with what their witnesses say."""
-    from adamslite.analyses.confirmation import confirmation
+    from adamslite.analyses.findings.confirmation import confirmation
 
     found = confirmation(results, session.chosen.settings, again)
     summary = {**results.summary, "confirmed": found.confirmed, "verdict": found.verdict}
@@ -359,7 +359,7 @@ def _standing(session: Session) -> dict[str, str]:
     if len(joints) < 2 or not session.counts.steps or not session.history.count:
         return {}
     # Most runs of few parts do without.
-    from adamslite.analyses.standstill import standing
+    from adamslite.analyses.findings.standstill import standing
 
     note = standing(session.kernels.model, session.history)
     return {"not moved": note} if note else {}

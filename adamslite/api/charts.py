@@ -7,9 +7,9 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
-from adamslite.analyses.run_options import checked
+from adamslite.analyses.setup.run_options import checked
+from adamslite.analyses.setup.subject import Subject
 from adamslite.analyses.simulation import simulate
-from adamslite.analyses.subject import Subject
 from adamslite.api.inputs import CommandSource, User, inputs
 from adamslite.deck.deck import Deck
 from adamslite.errors import UsageError

@@ -8,7 +8,7 @@ from contextlib import closing
 from pathlib import Path
 from typing import Any
 
-from adamslite.analyses.subject import Subject, deck_of
+from adamslite.analyses.setup.subject import Subject, deck_of
 from adamslite.api.inputs import CommandSource, User, given_options, inputs
 from adamslite.fitting import fit as fits
 from adamslite.fitting.parameters import Bounds

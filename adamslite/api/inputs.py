@@ -19,7 +19,7 @@ from adamslite.language.statement import STATEMENTS, Statement
 from adamslite.scene import read_together
 
 if TYPE_CHECKING:  # numpy is not needed to check a deck
-    from adamslite.analyses.subject import Subject
+    from adamslite.analyses.setup.subject import Subject
 
 CommandSource: TypeAlias = str | os.PathLike[str] | Iterable[str] | Iterable[Command] | None
 """A command file, the text of one, its statements, or None: the file beside the deck."""
@@ -85,7 +85,7 @@ def need_subject(scene: object) -> None:
         In one sentence.
     """
     if not isinstance(scene, Deck):
-        from adamslite.analyses.subject import Kernels, Model
+        from adamslite.analyses.setup.subject import Kernels, Model
 
         if not isinstance(scene, Model | Kernels):
             kind = type(scene).__name__
@@ -117,7 +117,7 @@ def with_commands(subject: Subject, commands: CommandSource) -> Inputs:
         return Inputs(subject, ())
     if not isinstance(given, str | Path):
         return Inputs(subject, given)
-    from adamslite.analyses.subject import deck_of
+    from adamslite.analyses.setup.subject import deck_of
     from adamslite.reading.read import read_commands
 
     read = read_commands(given, deck_of(subject))

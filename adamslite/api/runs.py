@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from adamslite.analyses import simulation
-from adamslite.analyses.subject import Subject
+from adamslite.analyses.setup.subject import Subject
 from adamslite.api.inputs import CommandSource, User, inputs
 from adamslite.language.interfaces import Key
 from adamslite.outputs.saved_files import SavedFiles
@@ -17,7 +17,7 @@ from adamslite.progress import Progress, progress_of
 from adamslite.results.results import Results
 
 if TYPE_CHECKING:
-    from adamslite.analyses.history import Journal
+    from adamslite.analyses.dynamics.history import Journal
     from adamslite.results.linearization import Linearization
 
 
@@ -77,7 +77,7 @@ def simulate(
     max_steps : int
         Accepted steps after which it ends as STEP_LIMIT. Without, a run that creeps ends as
         CREEPING: see :class:`adamslite.results.outcomes.Outcome`.
-    journal : adamslite.analyses.history.Journal
+    journal : adamslite.analyses.dynamics.history.Journal
         Where a run is kept that takes long, as the command line has it; not kept unless given.
 
     memory_limit : int or str

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from contextlib import closing
 from typing import Any
 
-from adamslite.analyses.subject import Subject
+from adamslite.analyses.setup.subject import Subject
 from adamslite.api.inputs import CommandSource, User, given_options, inputs
 from adamslite.progress import Progress, progress_of
 from adamslite.sensitivity.adjoint import ALL

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from adamslite.analyses.run_options import Budget
+from adamslite.analyses.setup.run_options import Budget
 from adamslite.analyses.simulation import simulate
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from adamslite.analyses.run_options import budget_of, checked
+from adamslite.analyses.setup.run_options import budget_of, checked
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command
 from adamslite.errors import RunFailed, UsageError

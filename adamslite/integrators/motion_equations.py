@@ -200,7 +200,7 @@ def residual(P: Problem, phases: int, F: Reals) -> None:
     """All equations at the workspace's state.
 
     What would drive the model out of its plane ends the run:
-    see :mod:`adamslite.analyses.planar_reduction`.
+    see :mod:`adamslite.analyses.dynamics.planar_reduction`.
     """
     for k in range(P.sizes.n, P.sizes.nz):
         F[k] = 0.0

@@ -1,7 +1,7 @@
 """Reductions of the model to what its scene needs, each a rule with a name.
 
     fixed      parts that JOINT/FIXED holds together are one body (model/merging.py)
-    plane      what moves in a plane is solved in the plane (analyses/planar_reduction.py)
+    plane      what moves in a plane is solved in the plane (analyses/dynamics/planar_reduction.py)
     points     a point mass has three unknowns and no attitude
     variables  a VARIABLE is evaluated where it is used; solved for is only what depends on itself,
                and inputs and outputs of a plant

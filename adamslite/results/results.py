@@ -81,7 +81,7 @@ class Results:
         With an audit, the balance of energy of every dynamic analysis.
     confirmation : Confirmation
         The two other runs of a confirmation, when it was requested
-        (:mod:`adamslite.analyses.confirmation`).
+        (:mod:`adamslite.analyses.findings.confirmation`).
     source : RunSource or None
         The texts of deck and command file; None where they are not known.
     channels : mapping of str to Channel

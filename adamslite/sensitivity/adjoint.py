@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from adamslite.analyses.run_options import within_memory
+from adamslite.analyses.setup.run_options import within_memory
 from adamslite.analyses.simulation import explained
 from adamslite.equations.result_columns import columns
 from adamslite.errors import RunFailed, UsageError
@@ -30,8 +30,8 @@ from adamslite.sensitivity.study import SENSED, Study
 from adamslite.sensitivity.taped import Taped
 
 if TYPE_CHECKING:
-    from adamslite.analyses.run_options import Budget
-    from adamslite.analyses.subject import Subject
+    from adamslite.analyses.setup.run_options import Budget
+    from adamslite.analyses.setup.subject import Subject
     from adamslite.deck.redefinition import Command
     from adamslite.equations.system import System
     from adamslite.reading.numbers import Named

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from adamslite.analyses.output_times import plan_of
-from adamslite.analyses.run_options import budget_of, checked, within_memory
+from adamslite.analyses.setup.output_times import plan_of
+from adamslite.analyses.setup.run_options import budget_of, checked, within_memory
+from adamslite.analyses.setup.subject import deck_of, kernels_of, prepared_for
 from adamslite.analyses.simulation import explained
-from adamslite.analyses.subject import deck_of, kernels_of, prepared_for
 from adamslite.equations.result_columns import columns
 from adamslite.errors import RunFailed, UsageError
 from adamslite.kernels.groups import Kernels
@@ -30,8 +30,8 @@ from adamslite.variation.decks import variable_of
 from adamslite.variation.kernels import of_deck
 
 if TYPE_CHECKING:
-    from adamslite.analyses.session import Session
-    from adamslite.analyses.subject import Subject
+    from adamslite.analyses.session.session import Session
+    from adamslite.analyses.setup.subject import Subject
     from adamslite.deck.deck import Deck
     from adamslite.deck.redefinition import Command
     from adamslite.equations.system import System

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from adamslite.analyses.begun_again import Beginning
-from adamslite.analyses.dynamic import integrate, make_ready
-from adamslite.analyses.method_choice import MethodChoice
-from adamslite.analyses.planar_reduction import NOTHING, reduce_to_plane
-from adamslite.analyses.session import Session
+from adamslite.analyses.dynamics.begun_again import Beginning
+from adamslite.analyses.dynamics.dynamic import integrate, make_ready
+from adamslite.analyses.dynamics.method_choice import MethodChoice
+from adamslite.analyses.dynamics.planar_reduction import NOTHING, reduce_to_plane
+from adamslite.analyses.session.session import Session
 from adamslite.equations.engine import address_of
 from adamslite.errors import UsageError
 from adamslite.integrators.audit_record import TAPE_HEAD
@@ -28,7 +28,7 @@ from adamslite.sensitivity.corrector import KEPT
 from adamslite.sensitivity.directions import Collected, Direction, Snapshot, tangent_groups
 
 if TYPE_CHECKING:
-    from adamslite.analyses.run_options import Budget
+    from adamslite.analyses.setup.run_options import Budget
     from adamslite.equations.system import System
 
 #: By method: the native function that follows its tape.

@@ -10,8 +10,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from adamslite.analyses.setup.subject import kernels_of, prepared_for
 from adamslite.analyses.simulation import simulate
-from adamslite.analyses.subject import kernels_of, prepared_for
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command
 from adamslite.errors import RunFailed, UsageError

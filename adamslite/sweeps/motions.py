@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
+from adamslite.analyses.setup.subject import kernels_of, prepared_for
 from adamslite.analyses.simulation import simulate
-from adamslite.analyses.subject import kernels_of, prepared_for
 from adamslite.deck.commands import Commands
 from adamslite.deck.deck import Deck
 from adamslite.drawing.decimation import FEWEST, POINTS, RUNS_BUDGET, RUNS_CHANNEL_BUDGET

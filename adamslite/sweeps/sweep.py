@@ -12,8 +12,8 @@ from uuid import uuid4
 
 import numpy as np
 
-from adamslite.analyses.run_options import checked
-from adamslite.analyses.subject import kernels_of, prepared_for
+from adamslite.analyses.setup.run_options import checked
+from adamslite.analyses.setup.subject import kernels_of, prepared_for
 from adamslite.caching.program import program
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command

@@ -12,7 +12,7 @@ from unittest.mock import patch
 import numpy as np
 
 import adamslite
-from adamslite.analyses import history
+from adamslite.analyses.dynamics import history
 from adamslite.caching import secret
 from adamslite.errors import FormatError, UsageError
 from adamslite.fitting.measured import measured_of

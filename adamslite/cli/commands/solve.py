@@ -25,7 +25,7 @@ from adamslite.run_flags import add_deck, add_run_flags, run_options
 if TYPE_CHECKING:
     import numpy as np
 
-    from adamslite.analyses.history import Journal
+    from adamslite.analyses.dynamics.history import Journal
     from adamslite.outputs.part_file import PartFile
     from adamslite.results.results import Results
     from adamslite.scene import Scene
@@ -170,7 +170,7 @@ def _journal(
     args: argparse.Namespace, scene: "Scene", output: str, found: "PartFile | None"
 ) -> "Journal | None":
     """Where the run is kept when it takes long."""
-    from adamslite.analyses.history import Journal
+    from adamslite.analyses.dynamics.history import Journal
     from adamslite.errors import UsageError
 
     part = args.resume or Path(f"{output}.part")
@@ -199,7 +199,7 @@ def _journal(
 
 def _unkept(scene: "Scene", output: str, part: Path) -> "Journal | None":
     """What becomes of the rows of a run that cannot be resumed."""
-    from adamslite.analyses.history import Unkept
+    from adamslite.analyses.dynamics.history import Unkept
     from adamslite.language.text import STDIN
     from adamslite.outputs.whole_files import same_file
 

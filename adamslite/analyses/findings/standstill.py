@@ -14,7 +14,7 @@ from adamslite.elements.marker import Marker
 from adamslite.model.attitude_angles import rotations_313
 
 if TYPE_CHECKING:
-    from adamslite.analyses.history import History
+    from adamslite.analyses.dynamics.history import History
     from adamslite.deck.deck import Deck
     from adamslite.language.interfaces import Key
     from adamslite.model.model import Model

@@ -28,7 +28,7 @@ from adamslite.results.confirmation import Channel, Confirmation
 from adamslite.results.results import Results
 
 if TYPE_CHECKING:
-    from adamslite.analyses.dynamic import Settings
+    from adamslite.analyses.dynamics.dynamic import Settings
 
 # Both witnesses are taken at ERROR over this, but not below what round-off leaves of a test.
 TIGHTER, TIGHTEST = 100.0, 1e-12

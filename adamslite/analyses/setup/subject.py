@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, TypeAlias
 
-from adamslite.analyses import kept_kernels
+from adamslite.analyses.setup import kept_kernels
 from adamslite.deck.counted_turns import brought
 from adamslite.deck.deck import Deck
 from adamslite.kernels.groups import Kernels

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from adamslite.analyses.history import History
+    from adamslite.analyses.dynamics.history import History
     from adamslite.deck.deck import Deck
 
 FORCES = ("SFORCE", "SPRINGDAMPER")

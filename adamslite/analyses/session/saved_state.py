@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 import numpy as np
 
-from adamslite.analyses.dynamic import Settings
-from adamslite.analyses.static import StaticSettings
+from adamslite.analyses.dynamics.dynamic import Settings
+from adamslite.analyses.statics.static import StaticSettings
 from adamslite.deck.redefinition import Redefinition
 from adamslite.errors import UsageError
 from adamslite.results.untrusted import from_json
@@ -40,7 +40,8 @@ class State:
     """Time, and the arrays of a system that the next analysis begins with.
 
     ``memories``: of kernels, as angles that are counted; ``dropped``: redundant rows; ``asleep``:
-    sensors that have triggered, as :class:`~adamslite.analyses.sensors.SensorLog` has them.
+    sensors that have triggered, as :class:`~adamslite.analyses.dynamics.sensors.SensorLog` has
+    them.
     """
 
     time: float

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, Protocol
 from adamslite.results.outcomes import Outcome
 
 if TYPE_CHECKING:
-    from adamslite.analyses.dynamic import Settings
-    from adamslite.analyses.saved_state import Kept, State
-    from adamslite.analyses.sensors import SensorLog
-    from adamslite.analyses.static import StaticSettings
+    from adamslite.analyses.dynamics.dynamic import Settings
+    from adamslite.analyses.dynamics.sensors import SensorLog
+    from adamslite.analyses.session.saved_state import Kept, State
+    from adamslite.analyses.statics.static import StaticSettings
     from adamslite.deck.deck import Deck
     from adamslite.deck.redefinition import Redefinition
     from adamslite.elements.reload import Reload
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class Session(Protocol):
-    """What SAVE and RELOAD need of a session, :class:`adamslite.analyses.session.Session`."""
+    """What SAVE and RELOAD need of a :class:`adamslite.analyses.session.session.Session`."""
 
     kernels: Kernels
     present: System | None
@@ -65,7 +65,7 @@ class Saves:
         system = session.system
         if session.outcome is not Outcome.DONE or not command.where[1]:  # AUTOSAVE alone
             return
-        from adamslite.analyses.saved_state import Kept, State
+        from adamslite.analyses.session.saved_state import Kept, State
 
         kept = Kept(
             State.of(system, session.time, session.began_static, session.sensors.asleep),
@@ -104,7 +104,7 @@ class Saves:
             session.present = session.assembled_of(system)
 
     def _reload_file(self, session: Session, name: str) -> None:
-        from adamslite.analyses.saved_state import document
+        from adamslite.analyses.session.saved_state import document
 
         found = document(self.files.read(name), name, self.deck)
         session.settings = replace(found.settings, **session.flags)

@@ -21,8 +21,8 @@ from adamslite.integrators.jolts import JOLT
 from adamslite.language.method import FIXED, FIXED_BY_HINIT
 
 if TYPE_CHECKING:
-    from adamslite.analyses.dynamic import Settings
-    from adamslite.analyses.history import History
+    from adamslite.analyses.dynamics.dynamic import Settings
+    from adamslite.analyses.dynamics.history import History
     from adamslite.equations.system import System
 
 # ERROR up to which a user means digits that methods of order 2, or without a test of velocities, do

@@ -14,21 +14,21 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from adamslite.analyses.apart import Apart
 from adamslite.analyses.clock.clock import Clock
 from adamslite.analyses.clock.motion_jumps import without_value
-from adamslite.analyses.delays import Delays
-from adamslite.analyses.dynamic import Settings
-from adamslite.analyses.history import History, Piece
+from adamslite.analyses.dynamics.delays import Delays
+from adamslite.analyses.dynamics.dynamic import Settings
+from adamslite.analyses.dynamics.history import History, Piece
+from adamslite.analyses.dynamics.method_choice import MethodChoice
+from adamslite.analyses.dynamics.sensors import SensorLog
+from adamslite.analyses.findings.apart import Apart
 from adamslite.analyses.initial.algebraic_states import settle_states
 from adamslite.analyses.initial.conditions import initial_conditions, settle_variables
 from adamslite.analyses.initial.redundancy import leave_out_redundant
-from adamslite.analyses.method_choice import MethodChoice
-from adamslite.analyses.run_options import Budget
-from adamslite.analyses.saves import Saves
-from adamslite.analyses.sensors import SensorLog
-from adamslite.analyses.static import PIVOTING, StaticSettings
-from adamslite.analyses.subject import deck_of, kernels_of
+from adamslite.analyses.session.saves import Saves
+from adamslite.analyses.setup.run_options import Budget
+from adamslite.analyses.setup.subject import deck_of, kernels_of
+from adamslite.analyses.statics.static import PIVOTING, StaticSettings
 from adamslite.equations.engine import engine
 from adamslite.equations.result_columns import columns
 from adamslite.equations.system import System
@@ -41,9 +41,9 @@ from adamslite.outputs.saved_files import SavedFiles
 from adamslite.results.outcomes import Outcome
 
 if TYPE_CHECKING:
-    from adamslite.analyses.history import Journal
+    from adamslite.analyses.dynamics.history import Journal
     from adamslite.analyses.initial.conditions import Unclosed
-    from adamslite.analyses.subject import Subject
+    from adamslite.analyses.setup.subject import Subject
     from adamslite.deck.deck import Deck
     from adamslite.deck.redefinition import Redefinition
     from adamslite.progress import AnalysisProgress, Progress

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.analyses.saved_state import State
+from adamslite.analyses.session.saved_state import State
 from adamslite.elements.request import MEASURES, Request
 from adamslite.equations.result_columns import columns
 from adamslite.equations.system import System

@@ -2,7 +2,8 @@
 
 They are a list of stretches of rows with the same columns.  A stretch is in memory, or in a file
 (:mod:`adamslite.outputs.part_file`) where it has become too long for that, or the run takes long.
-Then the file also holds what a killed session goes on from (:mod:`adamslite.analyses.checkpoint`).
+Then the file also holds what a killed session goes on from
+(:mod:`adamslite.analyses.dynamics.checkpoint`).
 """
 
 from __future__ import annotations
@@ -220,7 +221,7 @@ class Journal:
 
     def write(self, history: History, system: System, code: int | None = None) -> None:
         """Keep the present run, which goes on or has ended with ``code``."""
-        from adamslite.analyses import checkpoint
+        from adamslite.analyses.dynamics import checkpoint
 
         facts = self.facts()
         if self.part is None:
@@ -234,7 +235,7 @@ class Journal:
         """Put the present run where the file has it; its code, None when it is not known there."""
         if self.part is None or not self.part.state:
             return None
-        from adamslite.analyses import checkpoint
+        from adamslite.analyses.dynamics import checkpoint
 
         self.ends = checkpoint.known_ends(self.part) | self.ends
         found = checkpoint.resumed(self.part, self.ends, self.run, system)

@@ -160,7 +160,7 @@ def need_room(
     rows, columns = rows_of(plan), len(column_names(system.kernels))
     record = system.nw + system.sizes.n_out
     if rows * (record + columns) > SMALL:
-        from adamslite.analyses.run_size import Rows, require_room
+        from adamslite.analyses.setup.run_size import Rows, require_room
 
         filed = filed and not system.model.deck.delays and all(map(_is_filed, plan))
         copies = 1 if columns == record - system.numbering.n_head else 2

@@ -21,17 +21,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.analyses.delays import NO_PAST, require_no_delay
-from adamslite.analyses.dynamic import integrate, make_ready
+from adamslite.analyses.dynamics.delays import NO_PAST, require_no_delay
+from adamslite.analyses.dynamics.dynamic import integrate, make_ready
+from adamslite.analyses.dynamics.method_choice import choose_method
+from adamslite.analyses.dynamics.planar_reduction import in_its_plane
+from adamslite.analyses.dynamics.sensors import AT_TIMES, require_none
 from adamslite.analyses.initial.conditions import consistent_velocities
 from adamslite.analyses.initial.redundancy import badly_chosen, leave_out_redundant
-from adamslite.analyses.method_choice import choose_method
-from adamslite.analyses.output_times import largest_step, output_times
-from adamslite.analyses.planar_reduction import in_its_plane
-from adamslite.analyses.sensors import AT_TIMES, require_none
-from adamslite.analyses.session_state import SessionState
-from adamslite.analyses.setting_commands import changes_the_model, updated
-from adamslite.analyses.static import StaticSettings, at_rest
+from adamslite.analyses.session.session_state import SessionState
+from adamslite.analyses.session.setting_commands import changes_the_model, updated
+from adamslite.analyses.setup.output_times import largest_step, output_times
+from adamslite.analyses.statics.static import StaticSettings, at_rest
 from adamslite.deck.redefinition import Redefinition
 from adamslite.equations.engine import engine
 from adamslite.integrators import contract
@@ -41,8 +41,8 @@ from adamslite.progress import AnalysisProgress
 from adamslite.results.outcomes import Outcome
 
 if TYPE_CHECKING:
-    from adamslite.analyses.begun_again import Beginning
-    from adamslite.analyses.method_choice import MethodChoice
+    from adamslite.analyses.dynamics.begun_again import Beginning
+    from adamslite.analyses.dynamics.method_choice import MethodChoice
     from adamslite.deck.redefinition import Command
     from adamslite.elements.equilibrium import Equilibrium
     from adamslite.elements.info import Info
@@ -228,7 +228,7 @@ class Session(SessionState):
 
     def _beginning(self) -> Beginning:
         # Only a run that may begin again needs it.
-        from adamslite.analyses.begun_again import Beginning
+        from adamslite.analyses.dynamics.begun_again import Beginning
 
         return Beginning(self.system)
 
@@ -257,7 +257,7 @@ class Session(SessionState):
     def _note_balance(self, system: System) -> None:
         if self.audited:
             # Few runs are audited, and what an audit needs takes a while to load.
-            from adamslite.analyses.audit import balance
+            from adamslite.analyses.dynamics.audit import balance
 
             self.balances.append(balance(system))
 
@@ -318,7 +318,7 @@ class Session(SessionState):
         if system.dof > 0:
             self.outcome = Outcome.NOT_KINEMATIC
             return
-        from adamslite.analyses.kinematic import run_kinematic
+        from adamslite.analyses.statics.kinematic import run_kinematic
 
         self.outcome, self.unclosed = run_kinematic(system, times, self.budget)
         self.time = float(system.report.t)
@@ -350,6 +350,6 @@ class Session(SessionState):
             self.outcome = Outcome.CPU_LIMIT
 
     def _do_info(self, command: Info) -> None:
-        from adamslite.analyses.info import info
+        from adamslite.analyses.session.info import info
 
         self.printed.append(info(self.system, command, self.time))

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import fields, replace
 from typing import TYPE_CHECKING, TypeVar
 
-from adamslite.analyses.dynamic import Settings
-from adamslite.analyses.static import StaticSettings
+from adamslite.analyses.dynamics.dynamic import Settings
+from adamslite.analyses.statics.static import StaticSettings
 from adamslite.deck.redefinition import Redefinition
 
 if TYPE_CHECKING:

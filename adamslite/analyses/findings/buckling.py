@@ -21,7 +21,7 @@ import numpy as np
 from adamslite.model.model import POINT
 
 if TYPE_CHECKING:
-    from adamslite.analyses.history import History
+    from adamslite.analyses.dynamics.history import History
     from adamslite.elements.sforce import Sforce
     from adamslite.elements.springdamper import Springdamper
     from adamslite.model.geometry import Place

@@ -27,7 +27,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.analyses.output_times import largest_step
+from adamslite.analyses.setup.output_times import largest_step
 from adamslite.errors import UsageError
 from adamslite.integrators import contract
 from adamslite.integrators.contract import SPECTRUM
@@ -36,7 +36,7 @@ from adamslite.model.model import PART, NodeKey
 from adamslite.symbolic.guards import JUMPS
 
 if TYPE_CHECKING:
-    from adamslite.analyses.dynamic import Settings
+    from adamslite.analyses.dynamics.dynamic import Settings
     from adamslite.equations.system import System
     from adamslite.kernels.groups import ShapeGroup
 

@@ -245,7 +245,7 @@ def _unstable(system: System) -> str:
 def _overspent(system: System) -> str:
     """Where the run was when its budget was spent, and what held its steps."""
     # Few runs have one.
-    from adamslite.analyses.held_steps import what_holds
+    from adamslite.analyses.findings.held_steps import what_holds
 
     reason = what_holds(system) if system.report.h else ""
     return _when(system) + (f", held by {reason}" if reason else "")

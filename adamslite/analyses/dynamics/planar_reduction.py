@@ -35,7 +35,7 @@ def in_its_plane(system: System, run: Callable[[], Outcome]) -> Outcome:
     """Run in the plane of a model that has one; in space when it has none or leaves it."""
     if not reduce_to_plane(system):
         return run()
-    from adamslite.analyses.begun_again import Beginning
+    from adamslite.analyses.dynamics.begun_again import Beginning
 
     beginning = Beginning(system)
     outcome = run()

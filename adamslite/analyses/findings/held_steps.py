@@ -1,7 +1,7 @@
 """What holds the steps of a run that was ended: who, why, and the force that changes most there.
 
-Asked when a run has spent its budget; :mod:`adamslite.analyses.step_limits` answers the same of a
-run that goes on.
+Asked when a run has spent its budget; :mod:`adamslite.analyses.dynamics.step_limits` answers the
+same of a run that goes on.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.analyses.step_limits import START, Seen, StepLimits
+from adamslite.analyses.dynamics.step_limits import START, Seen, StepLimits
 from adamslite.equations.unknown_names import placed, unknown
 from adamslite.integrators.contract import ACCELERATION, RESIDUAL
 

@@ -18,7 +18,7 @@ from adamslite.native.worker import Overspent, interruptible
 from adamslite.results.outcomes import Outcome
 
 if TYPE_CHECKING:
-    from adamslite.analyses.run_options import Budget
+    from adamslite.analyses.setup.run_options import Budget
     from adamslite.equations.system import System
 
 # Matrices up to this many unknowns may be eliminated densely when the block order meets a singular

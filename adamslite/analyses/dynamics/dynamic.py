@@ -12,9 +12,9 @@ import numpy as np
 from adamslite.analyses.clock.clock import Clock
 from adamslite.analyses.clock.motion_jumps import first_jump
 from adamslite.analyses.clock.step_limits import timetable
-from adamslite.analyses.run_options import Budget
-from adamslite.analyses.sensors import EQUAL, require_changing, require_none
-from adamslite.analyses.step_limits import StepLimits
+from adamslite.analyses.dynamics.sensors import EQUAL, require_changing, require_none
+from adamslite.analyses.dynamics.step_limits import StepLimits
+from adamslite.analyses.setup.run_options import Budget
 from adamslite.equations.engine import ints
 from adamslite.integrators import contract
 from adamslite.integrators.contract import SPECTRUM
@@ -25,7 +25,7 @@ from adamslite.progress import RunState
 from adamslite.results.outcomes import Outcome
 
 if TYPE_CHECKING:
-    from adamslite.analyses.history import Outlet
+    from adamslite.analyses.dynamics.history import Outlet
     from adamslite.equations.system import System
     from adamslite.language.method import Method
     from adamslite.progress import Progress
@@ -186,7 +186,7 @@ def make_ready(
     system.audit.on = False
     if audited:
         # Few runs are audited.
-        from adamslite.analyses.audit import start_audit
+        from adamslite.analyses.dynamics.audit import start_audit
 
         start_audit(system)
     row = max(1, system.nw + system.sizes.n_out)

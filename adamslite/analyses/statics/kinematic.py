@@ -21,7 +21,7 @@ from adamslite.results.outcomes import Outcome
 
 if TYPE_CHECKING:
     from adamslite.analyses.initial.conditions import Unclosed
-    from adamslite.analyses.run_options import Budget
+    from adamslite.analyses.setup.run_options import Budget
     from adamslite.equations.system import System
 
 # Angles are counted by the nearest one to the last: no part turns further in a step, and two may

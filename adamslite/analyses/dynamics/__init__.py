@@ -1,0 +1,1 @@
+"""Dynamic runs: method, plane, past, sensors, integration and what it wrote."""

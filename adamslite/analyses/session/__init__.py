@@ -1,0 +1,1 @@
+"""A session: commands in turn, the state that they leave, SAVE, RELOAD and INFO."""

@@ -1,0 +1,1 @@
+"""Static equilibrium, and kinematics: what loads or motions alone determine."""
