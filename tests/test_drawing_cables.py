@@ -302,6 +302,26 @@ def test_the_tension_of_a_rope_is_half_the_load_of_its_block() -> None:
     assert tension[-1] == pytest.approx([400, 400], abs=0.1)
 
 
+def test_racks_may_point_at_their_wheel_or_away_from_it() -> None:
+    """With both ropes turned over, and the signs of PD with them, nothing else changes."""
+    text = (find("decks") / "tackle" / "one-stage.adm").read_text()
+    turned = (
+        text.replace("J=141, PD=-0.2", "J=142, PD=0.2")
+        .replace("J=171, PD=0.2", "J=172, PD=-0.2")
+        .replace("MARKER/141,", "MARKER/142, PART=140, REULER=0,90D,0\nMARKER/141,")
+        .replace("MARKER/171,", "MARKER/172, PART=170, REULER=0,90D,0\nMARKER/171,")
+    )
+    seen = []
+    for each in (text, turned):
+        deck = al.read(each)
+        found = scene(deck, al.simulate(deck))
+        (cable,) = found.plain["cables"]
+        labels = [body["name"] for body in found.plain["bodies"]]
+        seen.append([_stop(labels, node) for node in cable["nodes"]])
+        assert decoded(found, cable["tension"])[-1] == pytest.approx([400, 400], abs=0.1)
+    assert seen[0] == seen[1] == ["PART/140", ("PART/110", 1), "PART/170"]
+
+
 def test_a_rack_on_guides_of_the_ground_is_no_rope() -> None:
     """A pinion that drives a rack: a wheel, and no line."""
     text = """Rack and pinion

@@ -38,6 +38,16 @@ def test_changes_of_a_deck_are_checked_as_long_as_that_is_worth_it(monkeypatch):
         assert line.startswith("MARKER/2") and only.severity == "warning"
 
 
+def test_changes_are_made_as_long_as_that_is_worth_it(monkeypatch):
+    """Each makes a deck of its own; where no analysis is between them, rules are not even asked."""
+    monkeypatch.setattr("adamslite.reading.read.MOST_JUDGED", 200)
+    changes = "".join(f"MARKER/2, QP={n},0,0\n" for n in range(99))
+    deck = al.read(BODIES)
+    (only,) = al.read_commands(f"hostile\n{changes}", deck).warnings
+    made = 5 * 200 // (20 + len(deck.own))
+    assert only.code == "changes-not-checked" and only.span.line == made + 2 < 99
+
+
 def test_a_few_changes_are_all_checked():
     deck = al.read(BODIES)
     assert not al.read_commands(f"hostile\n{CHANGES}", deck).warnings

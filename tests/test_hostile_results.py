@@ -157,8 +157,15 @@ def test_nothing_is_unpickled(suffix: str, tmp_path: Path) -> None:
 
 @pytest.mark.skipif(not os.path.exists("/dev/zero"), reason="a device of Unix")
 def test_what_has_no_end_is_not_read(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    with pytest.raises(OSError, match="more than 17 MB are not read"):
-        text.contents("/dev/zero")
+    """No further than to where it is too much."""
+    tracemalloc.start()
+    try:
+        with pytest.raises(OSError, match="more than 17 MB are not read"):
+            text.contents("/dev/zero")
+        _, most = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert text.OF_DEVICE < most < text.OF_DEVICE + 4 * text.PIECE
     monkeypatch.setattr(text, "OF_PIPE", 1_000_000)
     pipe = tmp_path / "a.csv"
     os.mkfifo(pipe)

@@ -221,8 +221,18 @@ def test_columns_of_tokens_are_as_a_list_of_them():
 
 
 def test_mathematics_is_looked_for_once():
-    """On one line with many signs that begin it, and one that ends it at last."""
-    for text in ("$$" * 40_000, "x" + "\\[" * 40_000 + "\\]", "$a$ " * 20_000):
+    """With many signs that would begin it, on one line and on many, and one that ends it at last:
+    there, or too late on the next line.
+    """
+    signs = "\\[" * 40_000
+    texts = (
+        "$$" * 40_000,
+        f"x{signs}\\]",
+        f"x{signs}\n\\]",
+        "x\\[\n" * 40_000 + "\\]",
+        "$a$ " * 20_000,
+    )
+    for text in texts:
         Counted.looked = 0
         Plain(Counted(text))
         assert Counted.looked < 8 * len(text)

@@ -97,7 +97,7 @@ class Plain:
         self._closes = ""
         """What ends the mathematics that is read, empty outside."""
         self._ends: dict[str, int] = {}
-        """Where each sign that closes was found last, -1 where there is no further one."""
+        """Where each sign was found last, -1 where there is no further one."""
         self._whole = False
         self._looked = source.rfind("\n", 0, start) + 1
         self._blank = True
@@ -193,13 +193,19 @@ class Plain:
         begins with it.
         """
         closes, start, end = _CLOSES.get(found[0]), *found.span()
-        if closes is None or self._ends.get(closes) == -1:
+        if closes is None or (at := self._next(closes, end)) < 0:
             return False
         self._whole = self._begins_line(start)
-        at = self._ends.get(closes, 0)
-        if at < end:
-            at = self._ends[closes] = self._source.find(closes, end)
-        return at >= 0 and (self._whole or self._source.find("\n", end, at) < 0)
+        return self._whole or not 0 <= self._next("\n", end) < at
+
+    def _next(self, sign: str, start: int) -> int:
+        """Where a sign is found next from an offset on, -1 where there is none; no text is looked
+        at twice, however many such offsets there are.
+        """
+        at = self._ends.get(sign, start - 1)
+        if 0 <= at < start:
+            at = self._ends[sign] = self._source.find(sign, start)
+        return at
 
     def _begins_line(self, start: int) -> bool:
         """Whether nothing but blanks stands before an offset on its line; no text is looked at
