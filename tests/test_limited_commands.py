@@ -42,7 +42,7 @@ def test_a_fit_that_runs_out_of_steps_has_its_best_numbers(tmp_path, monkeypatch
             re.search(STEPS, found.stopped) and np.isnan(found.errors).all()
         )
         assert found.results.summary["outcome"] == "DONE"
-    assert found[K] == whole[K] and off[0] >= off[1] >= off[2]
+    assert found[K] == whole[K] and off[0] > 1.0 > off[1] >= off[2]
     words = ["fit", "swings.adm", str(measured()), "--by", K, "--max-steps", "6000", "--quiet"]
     assert main(words) == 4
     told = "".join(capsys.readouterr())
@@ -65,7 +65,8 @@ def test_an_interrupted_fit_has_its_best_numbers(monkeypatch) -> None:
     monkeypatch.setattr(Runs, "results", results)
     found = al.fit(SWINGS, measured(), [K])
     assert found.stopped == Outcome.INTERRUPTED.sentence and found.limited
-    assert found[K] in [each[0] for each in calls]
+    reached = {each[0] for each in calls}
+    assert found[K] == min(reached, key=lambda each: abs(each - 260.0)) != calls[0][0]
 
 
 def test_a_fit_whose_first_run_is_too_much_says_so() -> None:

@@ -303,9 +303,15 @@ def test_dynamic_hold_lets_statics_alone_move_a_state(form: str, method: str) ->
     assert results["DIFF/1"] == pytest.approx([1, 1, 3, 3], rel=1e-9)
 
 
-def test_a_matrix_that_is_not_read_has_no_rank() -> None:
-    """COLUMNS is misspelled; the statics that it is for look at no matrix."""
-    broken = "MATRIX/1, ROWS=1, COL]UMNS=1, VALUES=1\nARRAY/1, X, SIZE=1\nLSE/1, X=1, A=1\n"
+@pytest.mark.parametrize(
+    "broken",
+    [
+        "MATRIX/1, ROWS=1, COL]UMNS=1, VALUES=1\nARRAY/1, X, SIZE=1\nLSE/1, X=1, A=1\n",
+        "LSE/1, U=\n",
+    ],
+)
+def test_a_matrix_that_is_not_read_has_no_rank(broken: str) -> None:
+    """Its COLUMNS are misspelled, or the LSE is half read; the statics look at no matrix."""
     with pytest.raises(al.DeckError) as caught:
         al.read(f"t\nPART/1, GROUND\n{broken}SIMULATE/STATICS\nEND\n")
     assert {each.span.line for each in caught.value.errors} == {3}

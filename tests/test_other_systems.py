@@ -71,12 +71,14 @@ EVERYWHERE = {
     "rint", "nearbyint", "log2", "fma", "cbrt", "expm1", "log1p", "hypot", "ldexp",
 }  # fmt: skip
 #: Targets of LLVM, and what their systems have beyond that: two functions at once of glibc and of
-#: macOS, and how macOS clears and fills. `_fltused` is no function: it says that there are floating
-#: numbers, for the linker of Microsoft, and nothing refers to it.
+#: macOS, and how macOS clears and fills, under a name for each of its processors. `_fltused` is no
+#: function: it says that there are floating numbers, for the linker of Microsoft, and nothing
+#: refers to it.
 SYSTEMS = {
     "x86_64-unknown-linux-gnu": {"sincos"},
     "aarch64-unknown-linux-gnu": {"sincos"},
     "arm64-apple-macosx11.0.0": {"__sincos_stret", "bzero", "memset_pattern16"},
+    "x86_64-apple-macosx11.0.0": {"__sincos_stret", "__bzero", "memset_pattern16"},
     "x86_64-pc-windows-msvc": {"_fltused"},
 }
 
