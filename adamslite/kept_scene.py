@@ -67,6 +67,8 @@ def command_file_beside(deck_path: Path) -> Path | None:
     UsageError
         When it is a link to a file elsewhere, which the user has not named.
     """
+    if not deck_path.name:  # a folder, which is no deck either
+        return None
     candidates = (deck_path.with_suffix(suffix) for suffix in (".acf", ".ACF"))
     found = next((path for path in candidates if path.is_file()), None)
     if found and found.is_symlink():

@@ -220,6 +220,7 @@ def linearize(
     RunFailed
         When the state could not be reached.
     """
+    from adamslite.analyses.linearization.instant import NoDerivative
     from adamslite.analyses.linearization.linearization import linear
 
     _need_time(time)
@@ -243,6 +244,9 @@ def linearize(
             return interruptible(about, over=budget.over)
         except Overspent:
             raise RunFailed(Outcome.CPU_LIMIT.sentence) from None
+        except NoDerivative:
+            session.outcome = Outcome.NOT_FINITE
+            raise RunFailed(explained(session)) from None
 
 
 def _at_first(deck: Deck) -> Iterator[Command]:

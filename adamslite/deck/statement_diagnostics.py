@@ -80,7 +80,9 @@ def place_of(statement: Owner, field: str = "") -> Span:
 def _expressions(statement: Owner) -> list[str]:
     """The fields that are given and are expressions."""
     cls = statement.of if isinstance(statement, Redefinition) else type(statement)
-    return [name for name in statement.spans if cls.arguments[name].kind == "expression"]
+    # One that another statement brings with it has the places of that one.
+    known = cls.arguments
+    return [n for n in statement.spans if n in known and known[n].kind == "expression"]
 
 
 def _inside(spans: Spans, field: str, word: str) -> Span | None:

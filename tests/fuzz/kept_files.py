@@ -64,7 +64,7 @@ def _secret() -> bytes:
 
 
 @cache
-def _written(deck: str, commands: str, name: str, *words: str) -> bytes:
+def written(deck: str, commands: str, name: str, *words: str) -> bytes:
     """A file that a command leaves beside the deck."""
     here = Path.cwd()
     with TemporaryDirectory() as folder:
@@ -94,7 +94,7 @@ def _part() -> bytes:
         patch.object(secret, "_secret", _secret),
         patch.object(os.path, "abspath", str),  # the same bytes wherever it is written
     ):  # fmt: skip
-        _written(SHORT, "", "out.csv", "solve", "-o", "out.csv", "--quiet")
+        written(SHORT, "", "out.csv", "solve", "-o", "out.csv", "--quiet")
     return found[-1]
 
 
@@ -124,7 +124,7 @@ def resume(case: Case, folder: Path) -> str:
 
 def save(random: Random) -> Case:
     """A saved state, changed; the commands that go on from it."""
-    text = _written(FREE, KEEPS, SAVED, "solve", "-o", "out.csv", "--quiet").decode()
+    text = written(FREE, KEEPS, SAVED, "solve", "-o", "out.csv", "--quiet").decode()
     if random.random() < 0.3:
         data = byte_changes.changed(random, text.encode())
     else:
@@ -144,7 +144,7 @@ def store(random: Random) -> Case:
     """The file of a sweep, changed."""
     words = ("SPRINGDAMPER/1.K=100:200:3", "--measure", "max POINT_MASS/2.x", "--quiet",
              "--outputs", "POINT_MASS/2.x", "-o", STORE, "--workers", "1", "--threads")  # fmt: skip
-    data = byte_changes.changed(random, _written(SHORT, "", STORE, "sweep", *words))
+    data = byte_changes.changed(random, written(SHORT, "", STORE, "sweep", *words))
     whole = ("sweep", *words) if random.random() < WHOLE else ()
     return Case({DECK: SHORT.encode(), STORE: data}, whole)
 

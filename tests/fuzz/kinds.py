@@ -18,7 +18,16 @@ from adamslite.language.diagnostics import DeckError, Diagnostic
 from adamslite.language.method import declared
 from adamslite.reading.read import read_commands as read_command_file
 
-from . import byte_changes, grammar, kept_files, lsp_messages, material, text_changes
+from . import (
+    byte_changes,
+    command_lines,
+    grammar,
+    kept_files,
+    lsp_messages,
+    material,
+    registered,
+    text_changes,
+)
 from .calls import call
 from .cases import Case
 
@@ -135,6 +144,15 @@ def fmt(case: Case, folder: Path) -> str:
     return call("fmt", str(folder / DECK))
 
 
+@at_random
+def registered_statements(random: Random) -> Case:
+    """A deck of any registered statements, and now and then any commands."""
+    files = {DECK: encoded(registered.deck(random))}
+    if random.random() < 0.4:
+        files[COMMANDS] = encoded(registered.commands(random))
+    return Case(files)
+
+
 # ---- descriptions --------------------------------------------------------------------------------
 
 
@@ -217,6 +235,16 @@ def changed_run(random: Random) -> Case:
     return Case({DECK: encoded(text)}, _flags(random))
 
 
+@at_random
+def registered_run(random: Random) -> Case:
+    """A deck of any registered statements, and how it is run: by any commands, or without."""
+    files = {DECK: encoded(registered.deck(random))}
+    if random.random() < 0.5:
+        files[COMMANDS] = encoded(registered.commands(random))
+        return Case(files, ("--cpu-limit", "0.5"))
+    return Case(files, _flags(random))
+
+
 def _flags(random: Random) -> tuple[str, ...]:
     """Some output steps with any method."""
     method = random.choice(declared())
@@ -252,6 +280,12 @@ KINDS: Mapping[str, Kind] = {
     "read": Kind("decks are read", changed_deck, read, 3000),
     "check": Kind("decks are checked by the command", changed_deck, check, 300),
     "grammar": Kind("decks drawn from the grammar", grammatical, read, 400),
+    "registered": Kind(
+        "decks of all registered statements, functions and commands",
+        registered_statements,
+        check,
+        150,
+    ),
     "commands": Kind("command files are read", changed_commands, read_commands, 800),
     "fmt": Kind("decks are laid out", changed_deck, fmt, 200),
     "toml": Kind("descriptions of cable scenes", changed_description, cable, 800),
@@ -264,7 +298,9 @@ KINDS: Mapping[str, Kind] = {
         "saved states are gone on from", at_random(kept_files.save), kept_files.reload, 100
     ),
     "store": Kind("files of sweeps are loaded", at_random(kept_files.store), kept_files.load, 300),
+    "words": Kind("command lines", at_random(command_lines.line), command_lines.typed, 150),
     "fit": Kind("measurements to fit to", at_random(kept_files.measurement), kept_files.fit, 300),
     "lsp": Kind("sessions of an editor", at_random(lsp_messages.session), lsp_messages.serve, 100),
     "solve": Kind("short runs with every method", changed_run, solve, 60),
+    "any": Kind("short runs of all registered statements and commands", registered_run, solve, 40),
 }

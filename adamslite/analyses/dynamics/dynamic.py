@@ -14,6 +14,7 @@ from adamslite.analyses.clock.motion_jumps import first_jump
 from adamslite.analyses.clock.step_limits import timetable
 from adamslite.analyses.dynamics.sensors import EQUAL, require_changing, require_none
 from adamslite.analyses.dynamics.step_limits import StepLimits
+from adamslite.analyses.initial.conditions import without_accelerations
 from adamslite.analyses.setup.run_options import Budget
 from adamslite.equations.engine import ints
 from adamslite.integrators import contract
@@ -248,15 +249,11 @@ def _scheduled(system: System, times: np.ndarray, settings: Settings, hmax: floa
 def _named(system: System, code: int) -> Outcome:
     """The outcome of a return code.
 
-    Not-a-number is neither a singular matrix of accelerations, nor a corrector that does not
-    converge, nor an error that is too large; and no force cancels a mass where none depends on
-    accelerations.
+    Not-a-number is neither a corrector that does not converge, nor an error that is too large.
     """
     report, cancels = system.report, bool(system.sizes.implicit_mass)
     if code == contract.BROKEN_START or (code == contract.SINGULAR_MASS and not cancels):
-        if not (np.isfinite(system.F).all() and np.isfinite(system.elimination.LA).all()):
-            return Outcome.NOT_FINITE
-        return Outcome.SINGULAR_ACCELERATION if cancels else Outcome.UNDETERMINED
+        return without_accelerations(system)
     if code == contract.INTERRUPTED and report.torn:
         return Outcome.TORN
     if code == contract.INTERRUPTED and system.triggered:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from adamslite.analyses.initial.conditions import without_accelerations
 from adamslite.elements.simulate import MOST_STEPS
 from adamslite.errors import UsageError
 from adamslite.integrators import contract
@@ -96,7 +97,7 @@ class SensorLog:
         """
         system.settings.t = time = float(system.report.t)
         if system.run(ACCELERATIONS) != contract.DONE:
-            return Outcome.UNDETERMINED, times, True
+            return without_accelerations(system), times, True
         first = int(system.block.first)
         row = int(np.searchsorted(times[: system.count.records], time))
         output = row < len(times) and times[row] == time

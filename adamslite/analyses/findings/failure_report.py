@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import isnan
 from typing import TYPE_CHECKING
 
@@ -191,20 +192,43 @@ def _not_finite(system: System) -> str:
     system.q[:] = start
     if guilty is not None:
         return f"{placed(guilty)}: {_when(system)}"
+    guilty = _without_derivative(system)
+    if guilty is not None:
+        return f"{placed(guilty)}: {_when(system)}, a derivative has no value"
     text = f"{tested(system, report.where)}: {_when(system)}"
     return f"{text}, though no statement by itself lacks a value. Look at END, HMAX and ERROR too"
 
 
 def _without_value(system: System) -> Statement | None:
     """The first statement that brings not-a-number or infinity into the equations."""
+
+    def fails() -> bool:
+        system.run(RESIDUAL, contract.ACCELERATION)
+        return not np.isfinite(system.F[: system.nz]).all()
+
+    return _first(system, fails)
+
+
+def _without_derivative(system: System) -> Statement | None:
+    """The same of their derivatives."""
+
+    def fails() -> bool:
+        system.coef[:5] = 1.0
+        system.run(JACOBIAN, contract.ACCELERATION)
+        return not np.isfinite(system.sparse_jacobian().data).all()
+
+    return _first(system, fails)
+
+
+def _first(system: System, fails: Callable[[], bool]) -> Statement | None:
+    """The first statement for which something is true of the equations with that one alone."""
     groups, count = system.group, system.sizes.ng
     system.sizes.ng = 1
     guilty = None
     for k, group in enumerate(system.kernels.groups):
         for instance, (statement, _) in enumerate(group.instances):
             system.group = system.instances.one_instance(groups, k, instance)
-            system.run(RESIDUAL, contract.ACCELERATION)
-            if guilty is None and not np.isfinite(system.F[: system.nz]).all():
+            if guilty is None and fails():
                 guilty = statement
     system.group, system.sizes.ng = groups, count
     return guilty

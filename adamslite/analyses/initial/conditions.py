@@ -64,6 +64,16 @@ class Unclosed:
         return Outcome.NOT_FINITE if isnan(self.size) else Outcome.INITIAL_CONDITIONS_FAILED
 
 
+def without_accelerations(system: System) -> Outcome:
+    """How an analysis ends where ACCELERATIONS are not solved for: not-a-number is no singular
+    matrix, and no force cancels a mass where none depends on accelerations.
+    """
+    if not (np.isfinite(system.F).all() and np.isfinite(system.elimination.LA).all()):
+        return Outcome.NOT_FINITE
+    cancels = bool(system.sizes.implicit_mass)
+    return Outcome.SINGULAR_ACCELERATION if cancels else Outcome.UNDETERMINED
+
+
 def initial_conditions(system: System, free: Iterable[Constraint] = ()) -> Unclosed | None:
     """Put the nearest consistent positions and velocities into ``system``; None when it worked.
 

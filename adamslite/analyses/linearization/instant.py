@@ -30,6 +30,10 @@ RATES = contract.VELOCITY_ROWS | contract.RATE_ROWS
 STATE = ("q", "u", "a", "z", "rd", "base", "W", "F", "report", "count")
 
 
+class NoDerivative(Exception):
+    """The equations have a derivative that is not a number."""
+
+
 @dataclass(frozen=True)
 class Instant:
     """One state and the derivatives of the equations in ground axes.
@@ -64,7 +68,13 @@ def skew(x: np.ndarray) -> np.ndarray:
 
 
 def present(system: System) -> Instant:
-    """The state that ``system`` holds, with its accelerations and multipliers."""
+    """The state that ``system`` holds, with its accelerations and multipliers.
+
+    Raises
+    ------
+    NoDerivative
+        When the equations have no linear part there.
+    """
     system.run(ACCELERATIONS)
     return _instant(system)
 
@@ -159,4 +169,7 @@ def _matrix(system: System, kind: int, phases: int) -> csr_array:
     system.coef[:5] = 0.0
     system.coef[kind] = 1.0
     system.run(JACOBIAN, phases)
-    return system.sparse_jacobian()
+    found = system.sparse_jacobian()
+    if not np.isfinite(found.data).all():
+        raise NoDerivative
+    return found

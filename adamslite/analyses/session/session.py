@@ -26,7 +26,7 @@ from adamslite.analyses.dynamics.dynamic import integrate, make_ready
 from adamslite.analyses.dynamics.method_choice import choose_method
 from adamslite.analyses.dynamics.planar_reduction import in_its_plane
 from adamslite.analyses.dynamics.sensors import AT_TIMES, require_none
-from adamslite.analyses.initial.conditions import consistent_velocities
+from adamslite.analyses.initial.conditions import consistent_velocities, without_accelerations
 from adamslite.analyses.initial.redundancy import badly_chosen, leave_out_redundant
 from adamslite.analyses.session.session_state import SessionState
 from adamslite.analyses.session.setting_commands import changes_the_model, updated
@@ -334,12 +334,13 @@ class Session(SessionState):
         system.settings.t = self.time
         system.start_record(np.array([self.time]))
         if system.run(ACCELERATIONS) != contract.DONE:
-            self.outcome = Outcome.UNDETERMINED
+            self.outcome = without_accelerations(system)
             return
         system.run(RECORD, 0)
         self.keep(system, np.array([self.time]), True)
 
     def _do_linear(self, command: Linear) -> None:
+        from adamslite.analyses.linearization.instant import NoDerivative
         from adamslite.analyses.linearization.linearization import carried_out
 
         require_no_delay(self.kernels, "LINEAR", "x(t - delay) has no state matrix")
@@ -348,6 +349,8 @@ class Session(SessionState):
             self.linearizations.append(interruptible(found, over=self.budget.over))
         except Overspent:
             self.outcome = Outcome.CPU_LIMIT
+        except NoDerivative:
+            self.outcome = Outcome.NOT_FINITE
 
     def _do_info(self, command: Info) -> None:
         from adamslite.analyses.session.info import info

@@ -14,6 +14,7 @@ from adamslite.analyses.initial.conditions import (
     initial_conditions,
     largest_turn,
     move,
+    without_accelerations,
 )
 from adamslite.integrators import contract
 from adamslite.integrators.contract import ACCELERATIONS, RECORD
@@ -61,7 +62,7 @@ def _in_turn(system: System, times: np.ndarray, budget: Budget) -> tuple[Outcome
             if unclosed:
                 return unclosed.outcome, unclosed
             if system.run(ACCELERATIONS) != contract.DONE:
-                return Outcome.UNDETERMINED, None
+                return without_accelerations(system), None
             # What is recorded on the way is written over.
             system.run(RECORD, row)
             system.count.steps += 1 if row else 0
