@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from math import pi, sqrt
 from pathlib import Path
 
@@ -12,6 +13,7 @@ import pytest
 import adamslite
 from adamslite.analyses.linearization.eigen import balance
 from adamslite.cli.main import main
+from adamslite.errors import RunFailed
 from adamslite.reading.read import read_commands
 
 # m x'' + c x' + k x = w, tuned to omega = 10, zeta = 0.1; w is VARIABLE/1.
@@ -179,3 +181,24 @@ def test_modes_without_commands_are_those_about_the_equilibrium_of_the_deck() ->
     assert abs(drawn.eigenvalues[0]) < 1e-2
     only_moving = PENDULUM.replace("SIMULATE/STATICS\n", "")
     assert abs(adamslite.linearize(adamslite.read(only_moving)).eigenvalues[0]) < 1e-2
+
+
+#: Where the mass begins, the root of its place has no slope, and the logarithm no value.
+ROOT = "FUNCTION=-SQRT(ABS(DX(2,1)))"
+NOWHERE = "FUNCTION=LOG(DX(2,1))"
+
+
+@pytest.mark.parametrize(
+    ("law", "said"), [(ROOT, "at t = 0, a derivative has no value"), (NOWHERE, "at t = 0.")]
+)
+def test_what_has_no_linear_part_is_named(law: str, said: str) -> None:
+    """By the command of a run, which ends there, and by the function."""
+    deck = re.sub(r"(SFORCE.*)FUNCTION=.*", rf"\1{law}", OSCILLATOR)
+    commands = read_commands(
+        "LINEAR/EIGENSOL\nSIMULATE/DYNAMIC, END=1, STEPS=1\n", adamslite.read(deck)
+    )
+    results = adamslite.simulate(adamslite.read(deck), commands=commands)
+    assert results.outcome is adamslite.Outcome.NOT_FINITE
+    assert results.message.startswith("SFORCE/1 (<text>:11:1)") and said in results.message
+    with pytest.raises(RunFailed, match=r"SFORCE/1 \(<text>:11:1\)"):
+        adamslite.linearize(adamslite.read(deck), time=0)

@@ -15,6 +15,7 @@ from scenes import GROUND, PENDULUM, chain, done, run
 
 import adamslite as al
 from adamslite import Outcome
+from adamslite.reading.read import read_commands
 
 
 def test_the_printed_sign_stops_where_the_mass_is_cancelled():
@@ -81,6 +82,14 @@ def test_a_mass_cancelled_through_a_variable_is_seen_too():
 def test_infinite_forces_are_told_from_singular_masses():
     deck = FALLING + "VFORCE/7, I=2, J_PART=1, FX=1/TIME\nEND\n"
     assert run(deck, 1.0).outcome is Outcome.NOT_FINITE
+
+
+def test_a_start_without_a_value_is_told_from_one_that_is_not_determined():
+    """SIMULATE/INITIAL_CONDITIONS solves for accelerations, too."""
+    deck = FALLING + "VFORCE/7, I=2, J_PART=1, FX=1/TIME\nEND\n"
+    commands = read_commands("SIMULATE/INITIAL_CONDITIONS\n", al.read(deck))
+    results = al.simulate(al.read(deck), commands=commands)
+    assert results.outcome is Outcome.NOT_FINITE and "VFORCE/7" in results.message
 
 
 def test_a_state_that_runs_away_is_named():

@@ -236,6 +236,17 @@ END
     assert found.samples.tolist() == [3, 0, 3]
 
 
+def test_a_sweep_without_an_output_time_is_kept(path, capsys) -> None:
+    """All runs end before they begin, and a file has no dimension without entries."""
+    words = ["POINT_MASS/2.MASS=0,-1", "--outputs", "POINT_MASS/2.x", "--workers", "1", "--threads"]
+    assert main(["sweep", str(path), *words, "-o", "x.nc"]) == 4
+    found = al.load_sweep("x.nc")
+    assert found.outcomes == ["INVALID", "INVALID"] and found.samples.tolist() == [0, 0]
+    assert found.history(0).shape == (2, 0)
+    assert main(["plot", "x.nc"]) == 2
+    assert "no run has a history" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("varied", "told"),
     [

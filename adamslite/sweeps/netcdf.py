@@ -87,20 +87,26 @@ def content(sweep: Sweep) -> bytes:
 def _histories(file: Any, sweep: Sweep, used: set[str]) -> None:
     """The histories, with the times that they have."""
     along = "time" if sweep.has_common_time else "sample"
-    length = len(sweep.common_time)
-    file.createDimension(along, length or None)
+    file.createDimension(along, _wide(sweep.common_time).shape[-1])
     variable = file.createVariable("samples", "i", ("run",))
     variable[:] = sweep.samples
     variable.long_name = b"output times of the run"
     if along == "time":
         variable = file.createVariable("time", "d", ("time",))
-        variable[:] = sweep.common_time
+        variable[:] = _wide(sweep.common_time)
     else:
         variable = file.createVariable("output_time", "d", ("run", along))
-        variable[:] = sweep.times()
+        variable[:] = _wide(sweep.times())
     variable.units = sweep.units.get("time", "").encode(TEXT)
-    tables = (sweep.history(k) for k in range(len(sweep.channels)))
+    tables = (_wide(sweep.history(k)) for k in range(len(sweep.channels)))
     _add(file, sweep, used, HISTORY, sweep.channels, tables, ("run", along))
+
+
+def _wide(table: np.ndarray) -> np.ndarray:
+    """The table with a column that is not a number where no run has an output time: a dimension of
+    the format is not empty.
+    """
+    return table if table.shape[-1] else np.full((*table.shape[:-1], 1), np.nan)
 
 
 def _add(

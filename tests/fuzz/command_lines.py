@@ -16,21 +16,23 @@ COLUMN = "POINT_MASS/2.x"
 NUMBER = "SPRINGDAMPER/1.K"
 
 #: Values of options, by what they are; "" stands for a flag.
-NUMBERS = ("0", "1", "2", "0.02", "1e-3", "-1", "1e300", "1e-300", "nan", "inf", "1e400", "x", "",
+NUMBERS = ("0.02", "0", "1", "2", "1e-3", "-1", "1e300", "1e-300", "nan", "inf", "1e400", "x", "",
            "9" * 30, "0x10", "1_0", "٣", "1e999999999")  # fmt: skip
 COUNTS = ("1", "2", "3", "0", "-1", "1.5", "9" * 30, "x", "", "²", "1e2")
-FILES = ("out.csv", "out.nc", "out.mat", "out.req", "out.res", "out.parquet", "-", "out", ".csv", "",
-         ".", "..", "none/out.csv", DECK, TABLE, RESULTS, "out.csv.part", "a\nb.csv", "a\x1b[2J.csv",
-         "/dev/full", "/dev/null", "x" * 300 + ".csv", "out.adm", "out.html", "out.png", "con.csv",
-         "out.json", "out.glb")  # fmt: skip
-COLUMNS = (COLUMN, "POINT_MASS/2.*", "*", "time", "none", "", "[", "TIME", "*.x", "POINT_MASS/2.x*",
-           "\x1b[2J", "POINT_MASS/2.x [mm]", "time [s]")  # fmt: skip
-MEASURES = (f"max {COLUMN}", f"min {COLUMN}", f"final {COLUMN}", "max *", "max", "", f"mean {COLUMN}",
-            f"rms {COLUMN}", f"max  {COLUMN}", "none x", f"max {COLUMN} {COLUMN}")  # fmt: skip
-VALUES = (f"{NUMBER}=210", "SPRINGDAMPER/1.C=1:3:2", f"{NUMBER}=1,2", f"{NUMBER}=", "=", NUMBER, "x=1",
-          f"{NUMBER}=nan", f"{NUMBER}=1e400", f"{NUMBER}=0", f"{NUMBER}=1:2", f"{NUMBER}=1:2:1e9",
-          f"{NUMBER}=1:2:-1", f"{NUMBER}=1:2:0", "POINT_MASS/2.MASS=0", "POINT_MASS/2.MASS=-1",
-          "POINT_MASS/2.QG.x=3", f"{NUMBER}=1:2:3:4", f"{NUMBER}=TIME", "==", "a=b=c")  # fmt: skip
+FILES = ("out.csv", "out.nc", "out.mat", "out.req", "out.res", "out.parquet", "-", "out", ".csv",
+         "", ".", "..", "none/out.csv", DECK, TABLE, RESULTS, "out.csv.part", "a\nb.csv",
+         "a\x1b[2J.csv", "/dev/full", "/dev/null", "x" * 300 + ".csv", "out.adm", "out.html",
+         "out.png", "con.csv", "out.json", "out.glb")  # fmt: skip
+COLUMNS = (COLUMN, "POINT_MASS/2.*", "*", "time", "none", "", "[", "TIME", "*.x",
+           "POINT_MASS/2.x*", "\x1b[2J", "POINT_MASS/2.x [mm]", "time [s]")  # fmt: skip
+MEASURES = (f"max {COLUMN}", f"min {COLUMN}", f"final {COLUMN}", "max *", "max", "",
+            f"mean {COLUMN}", f"rms {COLUMN}", f"max  {COLUMN}", "none x",
+            f"max {COLUMN} {COLUMN}")  # fmt: skip
+VALUES = (f"{NUMBER}=210", "SPRINGDAMPER/1.C=1:3:2", f"{NUMBER}=1,2", f"{NUMBER}=", "=", NUMBER,
+          "x=1", f"{NUMBER}=nan", f"{NUMBER}=1e400", f"{NUMBER}=0", f"{NUMBER}=1:2",
+          f"{NUMBER}=1:2:1e9", f"{NUMBER}=1:2:-1", f"{NUMBER}=1:2:0", "POINT_MASS/2.MASS=0",
+          "POINT_MASS/2.MASS=-1", "POINT_MASS/2.QG.x=3", f"{NUMBER}=1:2:3:4", f"{NUMBER}=TIME",
+          "==", "a=b=c")  # fmt: skip
 METHODS = ("GSTIFF", "RADAU", "HHT", "WSTIFF", "none", "", "*")
 RUN = {
     "--end": NUMBERS, "--steps": ("1", "3", *COUNTS[:6]), "--integrator": METHODS,
@@ -46,8 +48,8 @@ OWN_COMMANDS = {"--commands": (COMMANDS, "none", DECK, "", "-")}
 ORDINARY = {**RUN, **DECKED, **MEMORY}
 PLOTTED = {
     "-o": ("out.png", "out.svg", "out.pdf", *FILES), "--against": (RESULTS, TABLE, DECK, "none"),
-    "--x": COLUMNS, "--dark": ("",), "--by": (NUMBER, "none"), "--band": ("5:95", "95:5", "a:b", ":"),
-    "--pairs": ("",), "--indices": ("",), **ORDINARY,
+    "--x": COLUMNS, "--dark": ("",), "--by": (NUMBER, "none"),
+    "--band": ("5:95", "95:5", "a:b", ":"), "--pairs": ("",), "--indices": ("",), **ORDINARY,
 }  # fmt: skip
 #: Positional arguments with their forms, options, and how often a command is called.
 CALLS = {
@@ -79,7 +81,8 @@ CALLS = {
         "-o": ("out.html", "out.glb", *FILES[:24]), "--against": (RESULTS, TABLE, "none"),
         "--size": ("10x10", "0x0", "x", "9999999x9999999"), "--along": ("x", "iso", ""),
         "--dark": ("",), "--runs": (SWEEP, RESULTS, "none"), "--channels": COLUMNS}, 2),
-    "verify": ([(DECK, ".", "none", TABLE)], {**MEMORY, "--share": NUMBERS, "--max-steps": COUNTS}, 1),
+    "verify": ([(DECK, ".", "none", TABLE)], {
+        **MEMORY, "--share": NUMBERS, "--max-steps": COUNTS}, 1),
     "cable": ([(SPEC, DECK, "none", "."), ], {"-o": FILES, "--trial": NUMBERS}, 1),
     "help": ([("SFORCE", "QP", "x", "", "formats", "integrators", "\x1b[2J", "a/b", "*")], {}, 2),
     "editors": ([("folder", DECK, "")], {}, 1),
@@ -92,6 +95,8 @@ ALWAYS = {
     "view": ("--no-open",), "sweep": ("--workers", "1", "--threads", "--quiet"),
     "cable": ("--no-trial",),
 }  # fmt: skip
+#: How often a value is the first one, which is as it should be.
+SOUND = 0.6
 #: How often a value is changed besides.
 CHANGED = 0.1
 
@@ -103,11 +108,11 @@ def line(random: Random) -> Case:
     places, options, _ = CALLS[command]
     words = [command]
     for forms in places:
-        chosen = random.choice([forms[0], forms[0], *forms])
+        chosen = forms[0] if random.random() < SOUND else random.choice(forms)
         words += [_changed(random, chosen)] if chosen else []
     for name in random.sample([*options], min(len(options), random.choice([0, 1, 1, 2, 3]))):
         values = options[name]
-        value = random.choice([values[0], *values])
+        value = values[0] if random.random() < SOUND else random.choice(values)
         words += [name] if values == ("",) else [f"{name}={_changed(random, value)}"]
     words += ALWAYS.get(command, ())
     if command == "fit" and not any(each.startswith("--by") for each in words):

@@ -37,6 +37,8 @@ CREEPING = 1e-10
 REQUESTED = 0.5
 #: CPU of a run that has none left [s].
 LEAST = 1e-3
+#: Steps that a native run can count: enough for any.
+MOST_COUNTED = 2**62
 
 
 def checked(options: Mapping[str, Any]) -> dict[str, Any]:
@@ -150,7 +152,8 @@ class Budget:
         lent[:] = 0
         lent.t, lent.crept = float(run.t), self.crept
         lent.short = min(self.short, REQUESTED * float(run.h_max))
-        lent.most = 0 if self.steps is None else max(1, self.steps - self.taken)
+        left = 0 if self.steps is None else max(1, self.steps - self.taken)
+        lent.most = min(left, MOST_COUNTED)
 
     def settle(self, system: System) -> None:
         """Take over what a native run has spent."""
