@@ -141,7 +141,7 @@ def test_modes_that_take_too_long_are_not_found(monkeypatch) -> None:
     def late(call, stop=None, over=None):
         raise worker.Overspent
 
-    monkeypatch.setattr("adamslite.analyses.simulation.interruptible", late)
+    monkeypatch.setattr("adamslite.analyses.session.session.interruptible", late)
     with pytest.raises(RunFailed, match=CPU):
         al.linearize(SWINGS, cpu_limit=1e6)
 

@@ -30,9 +30,7 @@ from adamslite.integrators.linalg.plan import TINY
 from adamslite.language.interfaces import key_of
 from adamslite.language.method import without_effect
 from adamslite.model.reduction import MERGED, kept_apart, left_off
-from adamslite.native.worker import Overspent, interruptible
 from adamslite.outputs.saved_files import SavedFiles
-from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 from adamslite.results.source import source_of
 
@@ -220,7 +218,6 @@ def linearize(
     RunFailed
         When the state could not be reached.
     """
-    from adamslite.analyses.linearization.instant import NoDerivative
     from adamslite.analyses.linearization.linearization import linear
 
     _need_time(time)
@@ -239,14 +236,10 @@ def linearize(
         made = session.linearizations
         if made and rm is None:
             return made[-1].model
-        about = partial(linear, session.system, relative_to=marker)
-        try:
-            return interruptible(about, over=budget.over)
-        except Overspent:
-            raise RunFailed(Outcome.CPU_LIMIT.sentence) from None
-        except NoDerivative:
-            session.outcome = Outcome.NOT_FINITE
-            raise RunFailed(explained(session)) from None
+        found = session.linearized(partial(linear, session.system, relative_to=marker))
+        if found is None:
+            raise RunFailed(explained(session))
+        return found
 
 
 def _at_first(deck: Deck) -> Iterator[Command]:

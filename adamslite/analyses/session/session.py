@@ -14,10 +14,10 @@
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
@@ -54,6 +54,7 @@ if TYPE_CHECKING:
     from adamslite.equations.system import System
     from adamslite.kernels.groups import Kernels
 
+Found = TypeVar("Found")
 # Outcomes after which the rank of the constraints is computed again.
 STALLED = (Outcome.NEWTON_FAILED, Outcome.STEP_TOO_SMALL)
 # Outcomes after which nothing else is tried.
@@ -340,17 +341,23 @@ class Session(SessionState):
         self.keep(system, np.array([self.time]), True)
 
     def _do_linear(self, command: Linear) -> None:
-        from adamslite.analyses.linearization.instant import NoDerivative
         from adamslite.analyses.linearization.linearization import carried_out
 
         require_no_delay(self.kernels, "LINEAR", "x(t - delay) has no state matrix")
-        found = partial(carried_out, command, self.system, self.time)
+        found = self.linearized(partial(carried_out, command, self.system, self.time))
+        self.linearizations += [] if found is None else [found]
+
+    def linearized(self, call: Callable[[], Found]) -> Found | None:
+        """What a linearization of the state returns; None where ``outcome`` says why not."""
+        from adamslite.analyses.linearization.instant import NoDerivative
+
         try:
-            self.linearizations.append(interruptible(found, over=self.budget.over))
+            return interruptible(call, over=self.budget.over)
         except Overspent:
             self.outcome = Outcome.CPU_LIMIT
         except NoDerivative:
             self.outcome = Outcome.NOT_FINITE
+        return None
 
     def _do_info(self, command: Info) -> None:
         from adamslite.analyses.session.info import info
