@@ -15,7 +15,12 @@ from adamslite.analyses.initial.redundancy import row_name
 from adamslite.analyses.initial.rows import constraint_gradient
 from adamslite.analyses.session.session import Session
 from adamslite.assembly.closing import close, moved
-from adamslite.assembly.rank import dependent_of_many, dependent_rows, unit_rows
+from adamslite.assembly.rank import (
+    MOST_ORTHOGONALISED,
+    dependent_of_many,
+    dependent_rows,
+    unit_rows,
+)
 from adamslite.assembly.rows import gradient, sparse_gradient, values
 from adamslite.assembly.scope import WIDTH, Posture
 from adamslite.assembly.start import closing_of, has_loops, redundant_rows
@@ -91,6 +96,19 @@ def test_of_many_rows_as_many_are_left_out(name: str) -> None:
     assert len(found) == len(expected)
     least = [np.linalg.svd(np.delete(scaled, out, axis=0))[1][-1] for out in (expected, found)]
     assert least[1] > 0.1 * least[0]
+
+
+@pytest.mark.parametrize("count", [MOST_ORTHOGONALISED // 2, 2 * MOST_ORTHOGONALISED])
+def test_rows_that_are_left_out_are_combinations_of_those_that_stay(count: int) -> None:
+    """Either way to find them; the last three of all rows are combinations of the first five."""
+    random = np.random.default_rng(4)
+    rows = random.normal(size=(count - 3, count + 20))
+    rows = unit_rows(np.vstack([rows, random.normal(size=(3, 5)) @ rows[:5]]))
+    left_out = dependent_rows(rows)
+    assert len(left_out) == 3
+    assert {*left_out} < {0, 1, 2, 3, 4, count - 3, count - 2, count - 1}
+    staying = np.delete(rows, left_out, axis=0)
+    assert np.linalg.matrix_rank(staying) == np.linalg.matrix_rank(rows) == count - 3
 
 
 def test_a_loop_of_a_hundred_and_sixty_links() -> None:

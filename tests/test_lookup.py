@@ -120,6 +120,21 @@ def test_beyond_its_ends_a_table_follows_the_rule_it_was_given(kind: str, side: 
             assert found == pytest.approx(expected, rel=1e-9, abs=1e-10), (beyond, order)
 
 
+@pytest.mark.parametrize("kind", ["linear", *REFERENCES])
+def test_the_last_point_belongs_to_the_last_piece(
+    kind: str, in_native_code: Callable[..., float]
+) -> None:
+    """Whatever the table is beyond it: slope and curvature are those from inside."""
+    inside = table(kind, "piece")
+    for beyond in BEYOND:
+        made = table(kind, beyond)
+        for order in range(4):
+            expected = inside.at(X[-1:] - 1e-13, order)[0, 0]
+            for code in (in_native_code, in_python):
+                found = code(made.data, X[-1], 0.0, order, 0)
+                assert found == pytest.approx(expected, rel=1e-9, abs=1e-9), (beyond, order)
+
+
 @pytest.mark.parametrize("beyond", BEYOND)
 def test_two_points_are_a_straight_line_to_every_kind(beyond: str) -> None:
     for kind in ("linear", "akima", "natural", "not-a-knot"):
