@@ -283,7 +283,9 @@ def test_a_command_imports_no_other_command() -> None:
     ],
 )
 def test_the_command_line_takes_one_thread_unless_told(given: dict[str, str], seen: str) -> None:
-    """Set for the process of the command; a caller of `main` with arguments keeps his own."""
+    """Set for the process of the command; a caller of `main` with arguments keeps his own.  What he
+    has printed comes before what the command prints, whether or not Python gathers output.
+    """
     program = (
         "import os, sys\n"
         "from adamslite.cli.main import main\n"
@@ -294,8 +296,8 @@ def test_the_command_line_takes_one_thread_unless_told(given: dict[str, str], se
         "main()\n"
         "shown()\n"
     )
-    threads = (*THREADS, ALL_THREADS)
-    clean = {name: text for name, text in os.environ.items() if name not in threads}
+    left_out = (*THREADS, ALL_THREADS, "PYTHONUNBUFFERED")
+    clean = {name: text for name, text in os.environ.items() if name not in left_out}
     run = subprocess.run(
         [sys.executable, "-c", program], env=clean | given, capture_output=True, text=True
     )

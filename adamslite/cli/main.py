@@ -179,7 +179,10 @@ def _open_streams() -> None:
 
 
 def _stream(raw: FileIO, old: Any, by_line: bool) -> TextIOWrapper:
-    """A stream of text in the encoding of the old one, if there was one."""
+    """A stream of text in the encoding of the old one, if there was one, whose text comes first."""
+    with suppress(OSError, ValueError):
+        if old:
+            old.flush()
     encoding = old.encoding if old else "utf-8"
     return TextIOWrapper(BufferedWriter(raw), encoding, line_buffering=by_line)
 
