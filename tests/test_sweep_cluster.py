@@ -17,6 +17,7 @@ import adamslite as al
 from adamslite.cli.main import main
 from adamslite.deck.deck import Deck
 from adamslite.errors import RunFailed, UsageError
+from adamslite.language.file_name import OPENED
 from adamslite.sweeps import cluster
 from adamslite.sweeps.job import Job
 
@@ -127,11 +128,67 @@ def test_files_that_a_deck_names_go_along(path: Path, monkeypatch) -> None:
     cluster._lay_out(parcel)
     assert deck.folder != path.parent
     assert (deck.folder / "tables" / "law.csv").read_bytes() == b"0,0\n1,2\n"
-    for name in ("../mine.csv", str(Path("mine.csv").resolve())):
-        with pytest.raises(cluster.OtherWorker, match="has no file"):
-            cluster._lay_out(parcel._replace(files={name: b"3,4\n"}))
+    mine = str(Path("mine.csv").resolve())
+    for name in ("../mine.csv", mine):
+        with pytest.raises(cluster.OtherWorker, match="does not open the folder of .*mine.csv"):
+            cluster._lay_out(parcel._replace(files={name: b"1,2\n"}))
+    monkeypatch.setenv(OPENED, str(path.parent.resolve()))
+    with pytest.raises(cluster.OtherWorker, match="has no file"):
+        cluster._lay_out(parcel._replace(files={mine: b"3,4\n"}))
     assert Path("mine.csv").read_text() == "1,2\n"
-    cluster._lay_out(parcel._replace(files={str(Path("mine.csv").resolve()): b"1,2\n"}))
+    cluster._lay_out(parcel._replace(files={mine: b"1,2\n"}))
+
+
+PUSHED = """a mass that is pushed by a table
+UNITS/SYSTEM=MKS
+PART/1, GROUND
+MARKER/1, PART=1
+POINT_MASS/2, MASS=2, CM=2
+MARKER/2, POINT_MASS=2
+SPLINE/1, FILE={table}
+VARIABLE/1, FUNCTION=2
+VFORCE/1, I=2, J_PART=1, FX=VARVAL(1)*AKISPL(TIME,0,1)
+SIMULATE/DYNAMIC, END=1, STEPS=10
+END
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("opens", [True, False])
+def test_a_worker_reads_tables_elsewhere_only_where_its_environment_opens_them(
+    path: Path, monkeypatch, opens: bool
+) -> None:
+    """2 x'' = t and 2 t: x(1) = 1/12 and 1/6.  Its process begins with the environment
+    of its own machine; this one opens the folder for itself.
+    """
+    other = path.parent.resolve() / "elsewhere"
+    other.mkdir()
+    rows = "".join(f"{t},{t}\n" for t in range(6))
+    (other / "table.csv").write_text(rows)
+    (path.parent / "decks").mkdir()
+    deck = path.parent / "decks" / "pushed.adm"
+    monkeypatch.setenv(OPENED, str(other) if opens else "")
+    with (
+        _cluster(path.parent, processes=True, n_workers=1) as made,
+        distributed.Client(made) as client,
+    ):
+        monkeypatch.setenv(OPENED, str(other))
+
+        def swept(table: str) -> Any:
+            deck.write_text(PUSHED.format(table=table))
+            return al.sweep(
+                deck, "VARIABLE/1=1,2", measures=["max POINT_MASS/2.x"], client=client, error=1e-6
+            )
+
+        if opens:
+            assert swept(f"{other}/table.csv")["max POINT_MASS/2.x"] == pytest.approx(
+                [1 / 12, 1 / 6], rel=1e-3
+            )
+            with pytest.raises(UsageError, match="give it an absolute path"):
+                swept("../elsewhere/table.csv")
+        else:
+            with pytest.raises(RunFailed, match="does not open the folder of .*table.csv"):
+                swept(f"{other}/table.csv")
 
 
 # ---- lost workers ----------------------------------------------------------------------------

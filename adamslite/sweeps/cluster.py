@@ -9,9 +9,10 @@ that brings its workers down fails alone.
 
 from __future__ import annotations
 
+import os
 import threading
 import time as clock
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import CancelledError
 from contextlib import contextmanager, suppress
 from dataclasses import replace
@@ -24,6 +25,7 @@ from adamslite.caching.program import fingerprint
 from adamslite.elements.bases.data_file import tables
 from adamslite.errors import RunFailed, UsageError
 from adamslite.kept_scene import tables_of
+from adamslite.language.file_name import OPENED, inside
 from adamslite.sweeps.job import FAULT, Job, Run
 
 if TYPE_CHECKING:
@@ -152,6 +154,7 @@ class _Lots:
             )
         own = replace(self.job, values=self.job.values[:0])
         files = tables(own.deck.folder, tables_of(own.deck, own.commands))
+        _require_absolute(Path(os.path.abspath(own.deck.folder)), files)
         contents = {name: path.read_bytes() for name, path in files.items()}
         try:
             packed = pickle.dumps(Parcel(own, contents, fingerprint()))
@@ -269,10 +272,29 @@ def _lay_out(parcel: Parcel) -> None:
     for name, content in parcel.files.items():
         place = (folder / name).resolve()
         if not place.is_relative_to(folder.resolve()):  # nothing is written elsewhere
-            if not (place.is_file() and place.read_bytes() == content):
-                raise OtherWorker(f"its machine has no file {name}, or another one of that name")
+            _require_there(folder, name, content)
             continue
         place.parent.mkdir(parents=True, exist_ok=True)
         place.write_bytes(content)
     for each in {id(one): one for one in (deck, deck.base) if one is not None}.values():
         each.path = folder / (each.path.name if each.path else "sweep.adm")
+
+
+def _require_there(folder: Path, name: str, content: bytes) -> None:
+    """A table outside of the folder of the deck: this machine has it, and opens its folder."""
+    found = inside(folder, name)
+    if found is None:
+        raise OtherWorker(f"its machine does not open the folder of {name} ({OPENED})")
+    if not (found.is_file() and found.read_bytes() == content):
+        raise OtherWorker(f"its machine has no file {name}, or another one of that name")
+
+
+def _require_absolute(folder: Path, names: Iterable[str]) -> None:
+    """A worker has the deck in another folder, from which a name with `..` leads elsewhere."""
+    for name in names:
+        out = not Path(os.path.normpath(folder / name)).is_relative_to(folder)
+        if out and not os.path.isabs(name):
+            raise UsageError(
+                f"workers do not find {name}, which leads out of the folder of the deck: give it "
+                "an absolute path, the same on all machines"
+            )

@@ -51,6 +51,8 @@ time [ms],POINT_MASS/2.x [mm],POINT_MASS/2.vx
 30.0,1192.1,-0.5
 50.0,nan,-0.7
 """
+#: Descriptions that become decks: the shortest.
+CABLES = 16
 #: Of the cases these are met by the whole command, which takes a hundred times as long.
 WHOLE = 0.02
 #: The secret of the user who has written the files.
@@ -96,6 +98,33 @@ def _part() -> bytes:
     ):  # fmt: skip
         written(SHORT, "", "out.csv", "solve", "-o", "out.csv", "--quiet")
     return found[-1]
+
+
+@cache
+def _cable_decks() -> tuple[str, ...]:
+    """Decks that descriptions become: with the description in their comments, and without."""
+    texts = sorted(material.descriptions().texts, key=len)[:CABLES]
+    decks = [_cable_deck(each) for each in texts]
+    plain = ("\n".join(line for line in each.splitlines() if line[:1] != "!") for each in decks)
+    return (*decks, *plain)
+
+
+def _cable_deck(description: str) -> str:
+    with TemporaryDirectory() as name:
+        spec, deck = Path(name, "scene.toml"), Path(name, DECK)
+        spec.write_text(description, "utf-8")
+        assert call("cable", str(spec), "--no-trial", "-o", str(deck)) == "done"
+        return deck.read_text("utf-8")
+
+
+def cabled(random: Random) -> Case:
+    """A deck with cables, with other numbers: what they are is worked out from them."""
+    text = random.choice(_cable_decks())
+    for _ in range(random.randint(1, 3)):
+        usual = random.random() < 0.9
+        change = text_changes.other_value if usual else random.choice(text_changes.CHANGES)
+        text = change(random, text, _cable_decks())
+    return Case({DECK: text.encode("utf-8", "surrogatepass")})
 
 
 def part(random: Random) -> Case:

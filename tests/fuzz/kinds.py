@@ -288,6 +288,7 @@ KINDS: Mapping[str, Kind] = {
     ),
     "commands": Kind("command files are read", changed_commands, read_commands, 800),
     "fmt": Kind("decks are laid out", changed_deck, fmt, 200),
+    "cables": Kind("decks of cables are checked", at_random(kept_files.cabled), check, 30),
     "toml": Kind("descriptions of cable scenes", changed_description, cable, 800),
     **{
         each: Kind(f"files .{each} are read and compared", changed_results(f".{each}"), diff, 600)

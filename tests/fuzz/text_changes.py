@@ -8,6 +8,7 @@ from random import Random
 
 WORD = re.compile(r"[A-Za-z_]\w*")
 NUMBER = re.compile(r"(?<![\w.])\d+(?:\.\d*)?(?:[EeDd][-+]?\d+)?")
+VALUE = re.compile(r"(?<![\w.])\d+\.\d+")
 NUMBERS = (
     "0", "-1", "1", "2", "3", "1E-300", "1E300", "1E400", "9" * 30, "9" * 400, "0.5", "-0", "1D",
     "90D", "1E5D", "nan", "inf", "1e999999999", "0x10", "1_000", "2147483648",
@@ -108,6 +109,14 @@ def other_number(random: Random, text: str, others: Sequence[str]) -> str:
 def other_sign(random: Random, text: str, others: Sequence[str]) -> str:
     """With a number of the opposite sign."""
     return _replaced(random, text, NUMBER, lambda number: f"-{number}")
+
+
+def other_value(random: Random, text: str, others: Sequence[str]) -> str:
+    """With a number that has a point, which no id has, exchanged for another or scaled."""
+    power = random.randint(-12, 12)
+    scaled = random.random() < 0.6
+    by = random.choice(NUMBERS)
+    return _replaced(random, text, VALUE, lambda number: f"{number}E{power}" if scaled else by)
 
 
 def scaled_number(random: Random, text: str, others: Sequence[str]) -> str:

@@ -7,7 +7,7 @@ as a function of time is computed from that constraint.
 
 from collections.abc import Callable, Iterator
 from functools import partial
-from math import atan2
+from math import atan2, isnan, nan
 
 from adamslite.cables.description.payout_law import Unknown, evaluate
 from adamslite.cables.vectors import AXES, ZERO, Vector, add, dot, norm
@@ -62,10 +62,13 @@ class Posture:
         self._constants: dict[Key, float] = {}
 
     def at(self, time: float) -> None:
-        """Go to another time: what is prescribed takes the value it has then."""
+        """Go to another time: what is prescribed takes the value it has then, where it has one."""
         self.time, self._variables = time, {}
         for call, law in self._laws.items():
-            self.given[call] = law()
+            try:
+                self.given[call] = law()
+            except Unknown:
+                self.given[call], self._variables = nan, {}
 
     def forget(self) -> None:
         """After changing `given` or `shift`."""
@@ -141,7 +144,7 @@ class Posture:
         if not isinstance(node, Call):
             raise Unknown
         if node in self.given:
-            return self.given[node]
+            return _known(self.given[node])
         if node.name in STILL:
             return 0.0
         ids = [arg.id for arg in node.args if isinstance(arg, Ref)]
@@ -159,14 +162,12 @@ class Posture:
         if key in self._constants:
             return self._constants[key]
         if key not in self._variables:
-            self._variables[key] = float("nan")  # one that depends on itself is not known
+            self._variables[key] = nan  # one that depends on itself is not known
             function = self.deck.get(Variable, key).function
             self._variables[key] = self.value(function)
             if self._is_constant(function):
                 self._constants[key] = self._variables[key]
-        if self._variables[key] != self._variables[key]:
-            raise Unknown
-        return self._variables[key]
+        return _known(self._variables[key])
 
     def _distance(self, name: str, ids: list[Key]) -> float:
         d = self.place(ids[0])
@@ -271,6 +272,12 @@ class Posture:
         if ends[0] == ends[1]:
             raise Unknown
         return ends[0] / (ends[0] - ends[1])
+
+
+def _known(value: float) -> float:
+    if isnan(value):
+        raise Unknown
+    return value
 
 
 def _axes(statement: Part | PointMass | Marker) -> Axes:
