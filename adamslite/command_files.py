@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,6 +13,7 @@ from adamslite.elements.reload import Reload
 from adamslite.elements.save import Save
 from adamslite.errors import UsageError
 from adamslite.language.diagnostics import DeckError
+from adamslite.language.text import contents
 from adamslite.outputs.modes import files_beside
 from adamslite.outputs.saved_files import missing
 from adamslite.outputs.whole_files import same_file
@@ -48,6 +50,17 @@ def files_of_commands(
     if wrong:
         raise DeckError(wrong)
     return paths, [*(path for _, path in made), *saved]
+
+
+def reloaded(scene: Scene, output: Path) -> dict[str, str]:
+    """Digests of the files that RELOAD takes from earlier runs, by name."""
+    found, written = {}, set()
+    for each in scene.commands:
+        if isinstance(each, Save):
+            written.add(each.file)
+        elif isinstance(each, Reload) and each.file and each.file not in written:
+            found[each.file] = sha256(contents(output.with_name(each.file))).hexdigest()
+    return found
 
 
 def _file(command: Linear | Save | Reload) -> str:

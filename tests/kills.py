@@ -5,8 +5,10 @@
 
 Instants are spread evenly over the time that a run takes, from the start of the process to its end,
 so that some are before there is a file to go on with, which do not count, and some while results
-are written.  Of the resumed runs every second one is killed, too.  A line for each case says how
-many kills there were, and what was left; the exit code is 1 when bytes differed anywhere.
+are written; every third kill is in the middle of a write to the file of the run.  Resumed runs are
+killed again, of which some are killed again.  All files that a run writes are compared.  A line for
+each case says how many kills there were, and what was left; the exit code is 1 when bytes differed
+anywhere.
 """
 
 from __future__ import annotations
@@ -18,78 +20,108 @@ import sys
 import tempfile
 import time
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from unfinished_runs import PATIENCE, command
-from unfinished_scenes import CASES, SUFFIXES, written
+from unfinished_scenes import CASES, SUFFIXES, prepared
 
 #: Where a kill met a run.
-EARLY, RUNNING, WRITING, LATE = "early", "running", "writing", "late"
-SHOWN = (RUNNING, WRITING, EARLY, LATE, "resumed", "again", "drafts", "wrong")
+RUNNING, IN_WRITE, WRITING, EARLY, LATE = "running", "in state", "writing", "early", "late"
+SHOWN = (RUNNING, IN_WRITE, WRITING, EARLY, LATE, "resumed", "again", "drafts", "wrong")
+#: Share of the kills that are in a write to the file of the run; about so many writes a second.
+IN_WRITES, WRITES = 0.3, 60.0
 
 
 class Killing:
     """One case in a folder of its own; ``counts`` is what has happened."""
 
     def __init__(self, case: str, folder: Path, seed: int) -> None:
-        text, *self.words = CASES[case]
-        self.deck, self.chance = written(folder, text), random.Random(f"{case} {seed}")
-        self.suffix = SUFFIXES.get(case, ".csv")
-        self.output = folder / f"killed{self.suffix}"
+        self.folder, self.words = folder, CASES[case][1:]
+        self.deck, self.chance = prepared(folder, case), random.Random(f"{case} {seed}")
+        self.output = folder / f"out{SUFFIXES.get(case, '.csv')}"
         self.part = Path(f"{self.output}.part")
         self.counts: Counter[str] = Counter()
-        whole = folder / f"whole{self.suffix}"
+        self.read = set(self._contents())
         for _ in range(2):  # the second finds everything compiled
             began = time.monotonic()
-            self._finished(command(str(self.deck), "-o", str(whole), *self.words))
+            self._finished(self._begun())
             self.takes = time.monotonic() - began
-        self.whole = whole.read_bytes()
+        self.whole = self._contents()
 
     def until(self, kills: int) -> Counter[str]:
         """Kill until so many have met a run that had something to go on with."""
-        while self.counts[RUNNING] + self.counts[WRITING] < kills:
+        while self.counts[RUNNING] + self.counts[IN_WRITE] + self.counts[WRITING] < kills:
             self._once()
         return self.counts
 
+    def _begun(self, at: int = 0) -> list[str]:
+        return command(str(self.deck), "-o", str(self.output), *self.words, at=at)
+
+    def _gone_on(self, at: int = 0) -> list[str]:
+        return command("--resume", str(self.part), at=at)
+
+    def _contents(self) -> dict[str, bytes]:
+        return {each.name: each.read_bytes() for each in self.folder.iterdir()}
+
+    def _clear(self) -> None:
+        for each in self.folder.iterdir():
+            if each.name not in self.read:
+                each.unlink()
+
     def _once(self) -> None:
-        """One run from its start to its end, over one kill or two."""
-        self.output.unlink(missing_ok=True)
-        self._kill(command(str(self.deck), "-o", str(self.output), *self.words))
-        if self.part.exists() and self.chance.random() < 0.5:
+        """One run from its start to its end, over one kill or some."""
+        self._clear()
+        self._kill(self._begun)
+        while self.part.exists() and self.chance.random() < 0.6:
             self.counts["again"] += 1
-            self._kill(command("--resume", str(self.part)))
+            self._kill(self._gone_on)
         if self.part.exists():
             self.counts["resumed"] += 1
-            self._finished(command("--resume", str(self.part)))
+            self._finished(self._gone_on())
         elif not self.output.exists():
             return
-        self.counts["wrong"] += self.output.read_bytes() != self.whole or self.part.exists()
-        known = {self.deck.name, self.output.name, f"whole{self.suffix}"}
-        left = [each for each in self.deck.parent.iterdir() if each.name not in known]
+        found = self._contents()
+        left = [name for name in found if name not in self.whole]
         self.counts["drafts"] += len(left)
-        for each in left:
-            each.unlink()
+        drafts = all(name.startswith(".") and name.endswith(".part") for name in left)
+        same = {name: found.get(name) for name in self.whole} == self.whole
+        self.counts["wrong"] += not (same and drafts)
 
-    def _kill(self, words: Sequence[str]) -> None:
-        """Start a run and kill it at some time of it."""
-        process = subprocess.Popen(words, cwd=self.deck.parent, stderr=subprocess.PIPE)
-        try:
-            error = process.communicate(timeout=self.chance.uniform(0.0, self.takes))[1]
-            if process.returncode:
-                raise AssertionError(error.decode())
+    def _kill(self, words: Callable[[int], Sequence[str]]) -> None:
+        """Start a run and kill it at some time of it, or in some write to its file."""
+        before = self.part.stat().st_mtime_ns if self.part.exists() else None
+        inside, at, after = self.chance.random() < IN_WRITES, 0, PATIENCE
+        if inside:
+            at = self.chance.randrange(1, max(2, int(WRITES * self.takes)))
+        else:
+            after = self.chance.uniform(0.1 * self.takes, self.takes)
+        code, error = self._ended(words(at), after)
+        if code >= 0:
+            if code:
+                raise AssertionError(error)
             self.counts[LATE] += 1
+        elif not self.part.exists() or self.part.stat().st_mtime_ns == before:
+            self.counts[EARLY] += 1
+        elif self.output.exists() or [*self.folder.glob(f".{self.output.name}.????????.part")]:
+            self.counts[WRITING] += 1
+        else:
+            self.counts[IN_WRITE if inside else RUNNING] += 1
+
+    def _ended(self, words: Sequence[str], after: float) -> tuple[int, str]:
+        """Exit code and messages of a run that is killed after some time [s]."""
+        process = subprocess.Popen(words, cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        try:
+            error = process.communicate(timeout=after)[1]
         except subprocess.TimeoutExpired:
             process.kill()
-            process.communicate()
-            drafts = list(self.deck.parent.glob(f".{self.output.name}.*.part"))
-            known = WRITING if drafts or self.output.exists() else RUNNING
-            self.counts[known if self.part.exists() else EARLY] += 1
+            error = process.communicate()[1]
+        return process.returncode, error
 
     def _finished(self, words: Sequence[str]) -> None:
         done = subprocess.run(
-            words, cwd=self.deck.parent, capture_output=True, text=True, timeout=PATIENCE
+            words, cwd=self.folder, capture_output=True, text=True, timeout=PATIENCE
         )
         if done.returncode:
             raise AssertionError(done.stderr)

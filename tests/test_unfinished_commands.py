@@ -7,38 +7,21 @@ import random
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
 import pytest
-from unfinished_runs import OFTEN, command, solved
+from unfinished_runs import OFTEN, command, solved, until_there_is_a_state
 from unfinished_scenes import pendulum, written
 
 from adamslite.analyses.dynamics.checkpoint import begin
 from adamslite.caching import secret
 from adamslite.cli.main import main
-from adamslite.outputs.part_file import FIRST, RECORD, RECORDS, PartFile
+from adamslite.outputs.part_file import PartFile
 
 #: It runs for some seconds.
 LONG = pendulum(1200, 6000)
 FLAGS = ("--integrator", "GSTIFF", "--error", "1e-6")
-
-
-def until_there_is_a_state(process: subprocess.Popen[bytes], part: Path) -> None:
-    end = time.monotonic() + 120.0
-    while process.poll() is None and time.monotonic() < end:
-        if part.exists() and _last_serial(part) >= 3:  # the first one is of a run without rows
-            return
-        time.sleep(0.01)
-    raise AssertionError(process.communicate())
-
-
-def _last_serial(part: Path) -> int:
-    """How many states have counted."""
-    with open(part, "rb") as file:
-        head = file.read(FIRST).ljust(FIRST, b"\0")
-    return max(RECORD.unpack_from(head, at)[0] for at in RECORDS)
 
 
 @pytest.mark.parametrize(
@@ -220,7 +203,7 @@ class TestGoingOn:
     def test_a_deck_that_has_changed_is_refused(self, part: Path, capsys) -> None:
         part.with_name("deck.adm").write_text(LONG.replace("MASS=1", "MASS=2"))
         assert main(["solve", "--resume", str(part)]) == 2
-        assert "deck, commands or tables have changed since" in capsys.readouterr().err
+        assert "tables or what RELOAD reads have changed since" in capsys.readouterr().err
         assert part.exists()
 
     def test_a_folder_that_was_moved_has_its_deck_with_it(self, part: Path, tmp_path: Path) -> None:

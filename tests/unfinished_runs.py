@@ -10,6 +10,8 @@ import sys
 import time
 from pathlib import Path
 
+from adamslite.outputs.part_file import FIRST, RECORD, RECORDS
+
 #: The command line with states from the start on, and small blocks.
 OFTEN = """\
 import sys
@@ -19,13 +21,28 @@ dynamic.WATCH_INTERVAL = 0.02
 from adamslite.__main__ import main
 sys.exit(main())
 """
+#: The process ends in the middle of its n-th write to the file of the run.
+ENDING = """\
+import os, signal
+from adamslite.outputs.part_file import PartFile
+whole, calls = PartFile._write, []
+def half(self, at, data):
+    calls.append(at)
+    if len(calls) == {at}:
+        whole(self, at, data[: len(data) // 2])
+        self._stream.flush()
+        os.kill(os.getpid(), signal.SIGKILL)
+    whole(self, at, data)
+PartFile._write = half
+"""
 #: A start takes longer than this only where something hangs [s].
 PATIENCE = 240.0
 
 
-def command(*words: str) -> list[str]:
-    """`adamslite solve` with states from the start on."""
-    return [sys.executable, "-c", OFTEN, "solve", "--quiet", *words]
+def command(*words: str, at: int = 0) -> list[str]:
+    """`adamslite solve` with states from the start on; killed in a write to its file."""
+    program = f"{ENDING.format(at=at)}{OFTEN}" if at else OFTEN
+    return [sys.executable, "-c", program, "solve", "--quiet", *words]
 
 
 def solved(deck: Path, *words: str) -> bytes:
@@ -80,3 +97,20 @@ def _kill(words: list[str], part: Path, went_on: bool, after: float) -> bool:
     error = process.communicate()[1]
     assert alive or process.returncode == 0, error.decode()
     return alive
+
+
+def until_there_is_a_state(process: subprocess.Popen[bytes], part: Path, more: int = 3) -> int:
+    """Wait for the n-th state; how many there are.  The first one is of a run without rows."""
+    end = time.monotonic() + PATIENCE
+    while process.poll() is None and time.monotonic() < end:
+        if part.exists() and (serial := _last_serial(part)) >= more:
+            return serial
+        time.sleep(0.01)
+    raise AssertionError(process.communicate())
+
+
+def _last_serial(part: Path) -> int:
+    """How many states have counted."""
+    with open(part, "rb") as file:
+        head = file.read(FIRST).ljust(FIRST, b"\0")
+    return max(RECORD.unpack_from(head, at)[0] for at in RECORDS)

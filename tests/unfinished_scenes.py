@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from adamslite.resources import find
+
 PENDULUM = """\
 two bars that swing, one on the other
 ACCGRAV/JGRAV=-9.81
@@ -124,10 +126,144 @@ def assembled(end: float, steps: int) -> str:
     return pendulum(end, steps).replace("QG=2,0,0", "QG=2.1,0.2,0").replace("QG=1,0,0", "QG=1,.1,0")
 
 
+#: A block on a slide with dry friction, which sticks and slips.
+SLIDE = """\
+a block that is pulled to and fro, and sticks at both ends
+ACCGRAV/JGRAV=-9.81
+PART/1, GROUND
+MARKER/1, PART=1, REULER=90D,90D,0
+PART/2, MASS=2, CM=2, IP=0.01,0.01,0.01
+MARKER/2, PART=2, REULER=90D,90D,0
+JOINT/1, TRANSLATIONAL, I=2, J=1
+FRICTION/1, JOINT=1, MU_STATIC=0.3, MU_DYNAMIC=0.2
+SFORCE/1, TRANSLATION, I=2, J=1, ACTIONONLY, FUNCTION=9*SIN(TIME)+COS(3*TIME)
+SIMULATE/DYNAMIC, END={end}, STEPS={steps}
+END
+"""
+#: Shapes that touch: forces of CONTACT, with events.
+BALL = """\
+a ball on a floor that goes up and down
+ACCGRAV/KGRAV=-9.81
+PART/1, GROUND
+MARKER/1, PART=1
+GRAPHICS/1, PLANE, RM=1, XMIN=-1, XMAX=1, YMIN=-1, YMAX=1
+PART/2, MASS=1, CM=2, IP=0.004,0.004,0.004, QG=0,0,0.3
+MARKER/2, PART=2
+GRAPHICS/2, ELLIPSOID, CM=2, XSCALE=0.2, YSCALE=0.2, ZSCALE=0.2
+VFORCE/1, I=2, JFLOAT=3, RM=1, FX=-4*DX(2,1)\\FY=SIN(TIME)-4*DY(2,1)\\FZ=4*SIN(2*TIME)
+MARKER/3, PART=1, FLOATING
+CONTACT/1, IGEOM=2, JGEOM=1, IMPACT, STIFFNESS=1E5, EXPONENT=2.2, DAMPING=100, DMAX=1E-3
+, COULOMB_FRICTION=ON, MU_STATIC=0.3, MU_DYNAMIC=0.2
+, STICTION_TRANSITION_VELOCITY=0.01, FRICTION_TRANSITION_VELOCITY=0.1
+SIMULATE/DYNAMIC, END={end}, STEPS={steps}
+END
+"""
+#: Every kind of REQUEST, curves from statements and from a file, states, a transfer function.
+MEASURED = """\
+the swing, driven by tables, with all kinds of results
+{swing}
+SPLINE/1, X=0,1,2,3,5,6, Y=0,1,-1,2,-2,0
+SPLINE/2, FILE=road.csv, BLOCK=left
+VFORCE/1, I=4, JFLOAT=9, RM=1, FX=AKISPL(MOD(TIME,6),0,1)\\FY=CUBSPL(MOD(TIME,4),0,2)\\FZ=0
+MARKER/9, PART=1, FLOATING
+VARIABLE/1, FUNCTION=DX(4,1)
+ARRAY/1, U, SIZE=1, VARIABLES=1
+ARRAY/2, X
+ARRAY/3, Y
+TFSISO/1, U=1, X=2, Y=3, NUMERATOR=1, 2, DENOMINATOR=1, 0.2
+DIFF/1, IC=1, FUNCTION=ARYVAL(3,1)-DIF(1)
+REQUEST/2, VELOCITY, I=4, J=1, RM=2
+REQUEST/3, ACCELERATION, I=4, J=1
+REQUEST/4, FORCE, I=3, J=1
+REQUEST/5, F1=DIF(1)\\F2=AZ(5,6)\\F8=SFORCE(1,0,2,1)
+REQUEST/6, VARIABLES=1
+SFORCE/1, ROTATIONAL, I=3, J=1, FUNCTION=-0.1*WZ(3,1)
+MREQUEST/1, DISPLACEMENT, PARTS=ALL
+OUTPUT/REQSAVE
+RESULTS/XRF
+SIMULATE/DYNAMIC, END={end}, STEPS={steps}
+END
+"""
+ROAD = "time,left,right\n0,0,1\n1,1,0\n2,-0.5,0\n3,0.3,1\n4,0,0\n"
+#: What a deck does that a command file leads through analyses of all kinds.
+COMMANDS = """\
+deck.adm
+
+SIMULATE/STATICS
+SIMULATE/DYNAMIC, END=250, STEPS=2000
+DEACTIVATE/SFORCE, ID=1
+SIMULATE/DYNAMIC, END=500, STEPS=2000
+SAVE/FILE=halfway
+ACTIVATE/SFORCE, ID=1
+SFORCE/1, FUNCTION=2*COS(TIME)
+INTEGRATOR/HHT, ERROR=1E-5
+SIMULATE/DYNAMIC, END=650, STEPS=2000
+LINEAR/EIGENSOL
+RELOAD/FILE=halfway
+INTEGRATOR/RADAU, ERROR=1E-6
+SIMULATE/DYNAMIC, END=600, STEPS=1000
+STOP
+"""
+
+
+def slide(end: float, steps: int) -> str:
+    return SLIDE.format(end=end, steps=steps)
+
+
+def ball(end: float, steps: int) -> str:
+    return BALL.format(end=end, steps=steps)
+
+
+def measured(end: float, steps: int) -> str:
+    first, *lines = pendulum(1, 1).partition("SIMULATE")[0].splitlines()
+    return MEASURED.format(swing="\n".join(lines), end=end, steps=steps)
+
+
+def commanded() -> str:
+    """The swing that :data:`COMMANDS` are for, pushed by a force."""
+    return between_equilibria(1, 2).partition("SIMULATE")[0] + "END\n"
+
+
+def lowered(end: float, steps: int) -> str:
+    """The chain on a cable whose winch follows time: one equilibrium after the other."""
+    push = "VFORCE/1, I=11, JFLOAT=99, RM=1, FX=0\\FY=SIN(TIME)\\FZ=COS(TIME)\n"
+    text = chain(end, steps).replace("SIMULATE/DYNAMIC", f"{push}SIMULATE/STATICS")
+    return text.replace("SIMULATE", "MARKER/99, PART=1, FLOATING\nSIMULATE")
+
+
+def cranked(end: float, steps: int) -> str:
+    """The swing, both of whose joints follow time."""
+    driven = "MOTION/{n}, JOINT={n}, ROTATION, FUNCTION={n}*SIN(TIME)\n"
+    motions = driven.format(n=1) + driven.format(n=2)
+    return pendulum(end, steps).replace("SIMULATE/DYNAMIC", f"{motions}SIMULATE/KINEMATIC")
+
+
+def drawn_by(name: str, end: float, steps: int) -> str:
+    """A deck that `adamslite cable` has written, for longer."""
+    text = (find("decks") / "cables" / name).read_text()
+    return f"{text.rpartition('SIMULATE')[0]}SIMULATE/DYNAMIC, END={end}, STEPS={steps}\nEND\n"
+
+
+def routine(end: float, steps: int) -> str:
+    """The swing with a VARIABLE whose routine the command line replaces by a number."""
+    pushed = (
+        "VARIABLE/7, FUNCTION=USER(3, 4.5)\n"
+        "SFORCE/1, ROTATIONAL, I=3, J=1, FUNCTION=VARVAL(7)*SIN(TIME)\n"
+    )
+    return pendulum(end, steps).replace("SIMULATE", f"{pushed}SIMULATE")
+
+
 def written(folder: Path, text: str) -> Path:
     deck = folder / "deck.adm"
     deck.write_text(text)
     return deck
+
+
+def prepared(folder: Path, case: str) -> Path:
+    """The deck of a case in a folder, with the files that it reads."""
+    for name, text in FILES.get(case, {}).items():
+        (folder / name).write_text(text)
+    return written(folder, CASES[case][0])
 
 
 #: A deck that runs for about a second, and flags, by a word.
@@ -170,6 +306,31 @@ CASES = {
         ),
     ),
     "rows within steps of joints": (pendulum(200, 150000), "--integrator", "HHT", "--hmax", "9"),
+    "friction by GSTIFF": (slide(600, 3000), "--integrator", "GSTIFF", "--error", "1e-5"),
+    "friction by HHT": (slide(1500, 8000), "--integrator", "HHT", "--error", "1e-5"),
+    "CONTACT by GSTIFF": (ball(200, 4000), "--integrator", "GSTIFF", "--error", "1e-5"),
+    "CONTACT by RADAU": (ball(150, 3000), "--integrator", "RADAU", "--error", "1e-5"),
+    "CONTACT by AUTO": (ball(200, 4000), "--integrator", "AUTO", "--error", "1e-5"),
+    "tables, states and all requests": (measured(150, 1500), "--error", "1e-5"),
+    "a command file": (commanded(), "--error", "1e-6"),
+    "a cable over wheels": (drawn_by("described/crane.adm", 60, 3000),),
+    "a winch": (drawn_by("winches/hoist.adm", 60, 3000),),
+    "a routine that is a number": (routine(1000, 6000), "--user", "VARIABLE/7=0.5"),
+    "other numbers": (pendulum(1000, 6000), "--set", "PART/2.MASS=2.5", "--no-reduction", "plane"),
+    "written as res": (measured(150, 1000), "--error", "1e-5"),
+    "written as req": (measured(150, 1000), "--error", "1e-5"),
+    "written as mat": (measured(150, 1000), "--error", "1e-5"),
+    "written as parquet": (measured(150, 1000), "--error", "1e-5"),
+    "a page": (pendulum(700, 3000), "--page"),
+}
+#: Files beside the deck.
+FILES: dict[str, dict[str, str]] = {
+    "tables, states and all requests": {"road.csv": ROAD},
+    "a command file": {"deck.acf": COMMANDS},
+    **{f"written as {name}": {"road.csv": ROAD} for name in ("res", "req", "mat", "parquet")},
 }
 #: Formats other than CSV.
-SUFFIXES = {"NetCDF": ".nc"}
+SUFFIXES = {
+    "NetCDF": ".nc",
+    **{f"written as {name}": f".{name}" for name in ("res", "req", "mat", "parquet")},
+}

@@ -94,10 +94,12 @@ class RunSource:
         return deck, commands_of(Source(text_of(self.commands), self.commands_name), deck)
 
     def table_texts(self) -> dict[str, str]:
-        """The tables that SPLINE and MATRIX take from files, by name, as far as they are there."""
+        """The tables that SPLINE and MATRIX take from files, by name, as far as they are there and
+        have not changed since they were read.
+        """
         if self.tables or not (self.made or self.folder):
             return dict(self.tables)
-        from adamslite.elements.bases.data_file import tables
+        from adamslite.elements.bases.data_file import is_as_read, tables
         from adamslite.language.text import contents
 
         deck, commands = self.read()
@@ -106,7 +108,8 @@ class RunSource:
         found = {}
         for name, path in tables(deck.folder, sorted(filter(None, named))).items():
             with suppress(OSError, UnicodeDecodeError):
-                found[name] = contents(path).decode("utf-8-sig")
+                if is_as_read(path):
+                    found[name] = contents(path).decode("utf-8-sig")
         return found
 
 

@@ -15,6 +15,7 @@ import argparse
 import os
 import sys
 from collections.abc import Mapping, Sequence
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -185,16 +186,28 @@ def _journal(
 
         report(part)
 
+    saved = _reloaded(scene, output)
+
+    @cache  # files may change while the run lasts
     def facts() -> Mapping[str, Any]:
         from adamslite.cli.commands.unfinished import facts_of
 
-        return facts_of(args, scene)
+        return facts_of(args, scene, saved)
 
     if found:
         from adamslite.cli.commands.unfinished import compare
 
         compare(found, facts())
     return Journal(part, facts, found)
+
+
+def _reloaded(scene: "Scene", output: str) -> Mapping[str, str]:
+    """Digests of the files that RELOAD will read."""
+    if not any(each.keyword == "RELOAD" for each in scene.commands):
+        return {}
+    from adamslite.command_files import reloaded
+
+    return reloaded(scene, Path(output))
 
 
 def _unkept(scene: "Scene", output: str, part: Path) -> "Journal | None":

@@ -33,18 +33,18 @@ OPTIONS = (
 SAME = {
     "program": "it was begun by another version of adamslite, whose numbers may differ",
     "processor": "it was begun on another kind of processor, whose last digits may differ",
-    "source": "deck, commands or tables have changed since",
+    "source": "deck, commands, tables or what RELOAD reads have changed since",
 }
 
 
-def facts_of(args: argparse.Namespace, scene: Scene) -> Mapping[str, Any]:
-    """What a run is of, and how it was requested."""
+def facts_of(args: argparse.Namespace, scene: Scene, saved: Mapping[str, str]) -> Mapping[str, Any]:
+    """What a run is of, and how it was requested; ``saved``: what it takes from RELOAD."""
     from adamslite.caching.program import program
     from adamslite.native import processor
     from adamslite.results.source import source_of
 
     source = source_of(scene.deck, scene.commands)
-    texts = [source.deck, source.commands, list(source.user), source.table_texts()]
+    texts = [source.deck, source.commands, list(source.user), source.table_texts(), saved]
     digest = hashlib.sha256(json.dumps(texts).encode(errors="surrogatepass")).hexdigest()
     return {
         "program": program(), "version": adamslite.__version__, "processor": processor.name(),

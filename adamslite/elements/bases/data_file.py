@@ -23,6 +23,8 @@ Column = tuple[float, ...]
 SUFFIX = ".csv"
 # How many column names a message lists.
 LISTED = 6
+#: Of every file, what it was when it was read last.
+_seen: dict[Path, tuple[int, int]] = {}
 
 
 class UnusableFile(Exception):
@@ -31,9 +33,7 @@ class UnusableFile(Exception):
 
 def columns(folder: Path, name: str) -> tuple[Column, ...]:
     """All columns of the file ``name`` in ``folder`` or below."""
-    path = located(folder, name)
-    facts = path.stat()
-    return _table(path, facts.st_mtime_ns, facts.st_size)[1]
+    return _read(located(folder, name))[1]
 
 
 def points(
@@ -43,9 +43,7 @@ def points(
 
     ``channel``: its number, from 1; ``block``: its name.  Without both it must be the only one.
     """
-    path = located(folder, name)
-    facts = path.stat()
-    names, columns = _table(path, facts.st_mtime_ns, facts.st_size)
+    names, columns = _read(located(folder, name))
     return columns[0], columns[_number(names, len(columns), channel, block)]
 
 
@@ -73,6 +71,14 @@ def located(folder: Path, name: str) -> Path:
     return path
 
 
+def is_as_read(path: Path) -> bool:
+    """Whether a file is still the one that this process has taken its numbers from, if it has."""
+    try:
+        return _seen.get(path) in (None, _facts(path))
+    except OSError:
+        return False
+
+
 def tables(folder: Path, names: Iterable[str]) -> dict[str, Path]:
     """The files among some names that can be read."""
     found = {}
@@ -80,6 +86,18 @@ def tables(folder: Path, names: Iterable[str]) -> dict[str, Path]:
         with suppress(UnusableFile):
             found[name] = located(folder, name)
     return found
+
+
+def _read(path: Path) -> tuple[tuple[str, ...], tuple[Column, ...]]:
+    """Names and columns of a file as it is now."""
+    facts = _seen[path] = _facts(path)
+    return _table(path, *facts)
+
+
+def _facts(path: Path) -> tuple[int, int]:
+    """What changes with the content of a file."""
+    found = path.stat()
+    return found.st_mtime_ns, found.st_size
 
 
 @lru_cache(maxsize=4)
