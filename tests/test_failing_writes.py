@@ -16,7 +16,7 @@ from pathlib import Path
 
 import pytest
 from fakes import fall
-from writing_commands import LIMITED, WRITING, adamslite, contents, environment, prepare
+from writing_commands import CAREFUL, LIMITED, WRITING, adamslite, contents, environment, prepare
 
 from adamslite.cli.commands.codes import IO_FAILED
 from adamslite.cli.main import command_parsers
@@ -192,18 +192,19 @@ def test_a_disk_that_is_read_only(name: str, made: Path, tmp_path: Path) -> None
     assert changed == {}
 
 
-@pytest.mark.skipif(
-    not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root may write anywhere"
-)
+@pytest.mark.skipif(not CAREFUL, reason="the user may write anywhere")
 @pytest.mark.parametrize("name", EACH)
 def test_a_folder_that_is_read_only(name: str, folder: Path) -> None:
     put_old(name, folder)
     before = contents(folder)
-    folder.chmod(0o500)
+    closed = [folder, *(each for each in folder.rglob("*") if each.is_dir())]
+    for each in closed:
+        each.chmod(0o500)
     try:
-        done = adamslite(folder, WRITING[name].command.split())
+        done = adamslite(folder, WRITING[name].command.split(), prefix=CAREFUL)
     finally:
-        folder.chmod(0o700)
+        for each in closed:
+            each.chmod(0o700)
     assert done.returncode == IO_FAILED, done.stderr
     assert contents(folder) == before
 

@@ -67,10 +67,13 @@ def test_every_exact_format_keeps_what_it_writes(suffix: str, sample: str, tmp_p
 
 
 @pytest.mark.parametrize("suffix", EXACT)
-def test_files_of_a_run_have_the_same_bytes_each_time(suffix: str, tmp_path: Path) -> None:
-    """Its CPU seconds are in none of them."""
+def test_files_of_a_run_have_the_same_bytes_each_time(
+    suffix: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its CPU seconds are in none of them, and neither is the time of day."""
     files = []
     for cpu in (0.1, 0.2):
+        monkeypatch.setattr("time.asctime", lambda *_, day=cpu: f"day {day}")
         path = tmp_path / f"run{suffix}"
         fall(summary={"steps": 7, "setup_cpu_s": cpu, "solve_cpu_s": 2 * cpu}).save(path)
         files.append(path.read_bytes())

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from unfinished_runs import OFTEN, command, solved, until_there_is_a_state
+from unfinished_runs import OFTEN, command, left_behind, solved, until_there_is_a_state
 from unfinished_scenes import pendulum, written
 
 from adamslite.analyses.dynamics.checkpoint import begin
@@ -182,23 +182,7 @@ def test_a_long_run_that_is_not_kept_says_so(
 class TestGoingOn:
     @pytest.fixture
     def part(self, tmp_path: Path) -> Path:
-        """The file of a run that was killed, with rows before its last state."""
-        deck, output = written(tmp_path, LONG), tmp_path / "x.csv"
-        part = Path(f"{output}.part")
-        for _ in range(20):
-            process = subprocess.Popen(
-                command(str(deck), "-o", str(output), *FLAGS), stderr=subprocess.PIPE, cwd=tmp_path
-            )
-            until_there_is_a_state(process, part)
-            process.kill()
-            process.communicate()
-            killed = PartFile.open(part)
-            rows = killed.state["stretches"]
-            killed.close()
-            if rows:
-                return part
-            part.unlink()  # killed before rows were made sure of
-        raise AssertionError("no row was kept")
+        return left_behind(tmp_path, LONG, *FLAGS)
 
     def test_a_deck_that_has_changed_is_refused(self, part: Path, capsys) -> None:
         part.with_name("deck.adm").write_text(LONG.replace("MASS=1", "MASS=2"))

@@ -10,7 +10,9 @@ import sys
 import time
 from pathlib import Path
 
-from adamslite.outputs.part_file import FIRST, RECORD, RECORDS
+from unfinished_scenes import written
+
+from adamslite.outputs.part_file import FIRST, RECORD, RECORDS, PartFile
 
 #: The command line with states from the start on, and small blocks.
 OFTEN = """\
@@ -99,17 +101,37 @@ def _kill(words: list[str], part: Path, went_on: bool, after: float) -> bool:
     return alive
 
 
+def left_behind(folder: Path, text: str, *words: str) -> Path:
+    """The file of a run that was killed, with rows before its last state: x.csv.part."""
+    deck, output = written(folder, text), folder / "x.csv"
+    part = Path(f"{output}.part")
+    for _ in range(20):
+        process = subprocess.Popen(
+            command(str(deck), "-o", str(output), *words), stderr=subprocess.PIPE, cwd=folder
+        )
+        until_there_is_a_state(process, part)
+        process.kill()
+        process.communicate()
+        killed = PartFile.open(part)
+        rows = killed.state["stretches"]
+        killed.close()
+        if rows:
+            return part
+        part.unlink()  # killed before rows were made sure of
+    raise AssertionError("no row was kept")
+
+
 def until_there_is_a_state(process: subprocess.Popen[bytes], part: Path, more: int = 3) -> int:
     """Wait for the n-th state; how many there are.  The first one is of a run without rows."""
     end = time.monotonic() + PATIENCE
     while process.poll() is None and time.monotonic() < end:
-        if part.exists() and (serial := _last_serial(part)) >= more:
+        if part.exists() and (serial := states_of(part)) >= more:
             return serial
         time.sleep(0.01)
     raise AssertionError(process.communicate())
 
 
-def _last_serial(part: Path) -> int:
+def states_of(part: Path) -> int:
     """How many states have counted."""
     with open(part, "rb") as file:
         head = file.read(FIRST).ljust(FIRST, b"\0")

@@ -98,6 +98,22 @@ WRITING = {
 }  # fmt: skip
 
 
+def careful() -> list[str]:
+    """What begins a command that keeps to the permissions of files: root does not, by itself. Empty
+    where the system has no such command.
+    """
+    if not hasattr(os, "geteuid"):
+        return []
+    words = ["env"]
+    if os.geteuid() == 0:
+        words = ["setpriv", "--bounding-set=-dac_override,-dac_read_search"]
+    there = shutil.which(words[0]) and not subprocess.call([*words, "true"])
+    return words if there else []
+
+
+CAREFUL = careful()
+
+
 def prepare(folder: Path) -> None:
     """Put what the commands read into a folder: decks, a description, results, a sample."""
     for name, text in FILES.items():
@@ -127,10 +143,10 @@ sys.exit(main())
 
 
 def adamslite(
-    folder: Path, argv: Sequence[str], before: str = ""
+    folder: Path, argv: Sequence[str], before: str = "", prefix: Sequence[str] = ()
 ) -> subprocess.CompletedProcess[str]:
     """The command in a process of its own, after some lines of Python."""
-    command = [sys.executable, "-c", before + CALL, *argv]
+    command = [*prefix, sys.executable, "-c", before + CALL, *argv]
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, env=environment())
 
 

@@ -13,6 +13,8 @@ from adamslite.caching.entries import recall
 NAME, SIZE = "secret", 32
 #: Bytes of a seal.
 SEAL = 16
+#: The secret that this process has sealed with: where the cache goes under it, it is put back.
+_held: list[bytes] = []
 
 
 def seal(content: bytes) -> bytes:
@@ -21,4 +23,5 @@ def seal(content: bytes) -> bytes:
 
 
 def _secret() -> bytes:
-    return recall(NAME, lambda: os.urandom(SIZE))
+    _held[:] = [recall(NAME, lambda: _held[0] if _held else os.urandom(SIZE))]
+    return _held[0]

@@ -28,6 +28,8 @@ from adamslite.results.results import Results
 from adamslite.results.run_texts import attributes, need_rows, restored
 from adamslite.results.untrusted import need_plausible
 
+#: How the file begins: a text of 116 bytes; two words follow.
+HEAD = b"MATLAB 5.0 MAT-file, by adamslite".ljust(116)
 NEEDED = ("time", "values", "names")
 NEW = b"MATLAB 7.3 MAT-file"
 FAULTS = (ValueError, LookupError, OverflowError, struct.error, zlib.error, MemoryError)
@@ -45,10 +47,13 @@ def write(results: Results, path: str | Path) -> None:
         "units": _cells([results.channel(name).unit for name in results.names]),
         "run": {name: np.array(text, dtype=object) for name, text in attributes(results).items()},
     }
-    memory = BytesIO()
-    savemat(memory, content)
     with whole_file(path, binary=True) as stream:
-        stream.write(memory.getbuffer())
+        draft = stream if stream.seekable() else BytesIO()
+        savemat(draft, content)
+        draft.seek(0)
+        draft.write(HEAD)  # in place of one with the time of day
+        if draft is not stream:
+            stream.write(draft.getbuffer())
 
 
 def _cells(texts: list[str]) -> np.ndarray:

@@ -36,6 +36,11 @@ SAME = {
     "source": "deck, commands, tables or what RELOAD reads have changed since",
 }
 
+UNKNOWN = (
+    "files of adamslite are newer, by the clock of this machine, than the process that began it or "
+    "this one, so that its version is not known"
+)
+
 
 def facts_of(args: argparse.Namespace, scene: Scene, saved: Mapping[str, str]) -> Mapping[str, Any]:
     """What a run is of, and how it was requested; ``saved``: what it takes from RELOAD."""
@@ -163,8 +168,9 @@ def _texts(facts: Mapping[str, Any]) -> dict[str, Any]:
 def compare(part: PartFile, now: Mapping[str, Any]) -> None:
     """Raises UsageError when a run would not go on to the same numbers."""
     kept = part.state["facts"]
+    known = all(facts.get("program") for facts in (kept, now))
     for name, sentence in SAME.items():
-        if not now[name] or kept.get(name) != now[name]:
+        if not known or kept.get(name) != now[name]:
             path = part.path
             part.close()
-            raise UsageError(f"{path} cannot be resumed: {sentence}")
+            raise UsageError(f"{path} cannot be resumed: {sentence if known else UNKNOWN}")
