@@ -8,7 +8,7 @@ so that some are before there is a file to go on with, which do not count, and s
 are written; every third kill is in the middle of a write to the file of the run.  Resumed runs are
 killed again, of which some are killed again.  All files that a run writes are compared.  A line for
 each case says how many kills there were, and what was left; the exit code is 1 when bytes differed
-anywhere.
+anywhere.  Sweeps and fits are killed and given again.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from unfinished_runs import PATIENCE, command
-from unfinished_scenes import CASES, SUFFIXES, prepared
+from unfinished_scenes import CASES, SUFFIXES, pendulum, prepared, written
 
 #: Where a kill met a run.
 RUNNING, IN_WRITE, WRITING, EARLY, LATE = "running", "in state", "writing", "early", "late"
@@ -82,6 +82,10 @@ class Killing:
             self._finished(self._gone_on())
         elif not self.output.exists():
             return
+        self._compare()
+
+    def _compare(self) -> None:
+        """Whether all files are those of a run that was not disturbed, but for drafts."""
         found = self._contents()
         left = [name for name in found if name not in self.whole]
         self.counts["drafts"] += len(left)
@@ -111,7 +115,9 @@ class Killing:
 
     def _ended(self, words: Sequence[str], after: float) -> tuple[int, str]:
         """Exit code and messages of a run that is killed after some time [s]."""
-        process = subprocess.Popen(words, cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen(
+            words, cwd=self.folder, text=True, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE
+        )
         try:
             error = process.communicate(timeout=after)[1]
         except subprocess.TimeoutExpired:
@@ -127,11 +133,69 @@ class Killing:
             raise AssertionError(done.stderr)
 
 
+#: Commands that are simply given again, by the file that each writes: they take what there is from
+#: it, or leave it alone until they have another one.  A program that writes a sweep every moment.
+AGAIN = {
+    "a sweep": (
+        "out.nc",
+        "sweep deck.adm PART/2.MASS=1:2:60 --workers 2 --quiet -o out.nc --measure",
+        "max REQUEST/1.F2",
+    ),
+    "a fit": ("out.adm", "fit deck.adm measured.csv --by PART/2.MASS --quiet -o out.adm"),
+}
+OFTENER = """\
+import sys
+from adamslite.sweeps import sweep
+sweep.INTERVAL, sweep.SHARE = 0.01, 1.0
+from adamslite.__main__ import main
+sys.exit(main())
+"""
+
+
+class Repeating(Killing):
+    """A command that is killed and given again until it comes to its end."""
+
+    def __init__(self, case: str, folder: Path, seed: int) -> None:
+        name, words, *more = AGAIN[case]
+        self.folder, self.chance = folder, random.Random(f"{case} {seed}")
+        self.words = [sys.executable, "-c", OFTENER, *words.split(), *more]
+        self.output, self.counts = folder / name, Counter()
+        measured = ["solve", "deck.adm", "--quiet", "-o", "measured.csv", "--set", "PART/2.MASS=2"]
+        written(folder, pendulum(2, 50))
+        self._finished([sys.executable, "-m", "adamslite", *measured])
+        self.read = set(self._contents())
+        for _ in range(2):
+            self._clear()
+            began = time.monotonic()
+            self._finished(self.words)
+            self.takes = time.monotonic() - began
+        self.whole = self._contents()
+
+    def _once(self) -> None:
+        """One file, over some kills; that of an earlier time is whole whatever happens."""
+        self._clear()
+        old = self.chance.random() < 0.5 and self.output.suffix == ".adm"
+        if old:
+            self.output.write_bytes(self.whole[self.output.name])
+        while self.chance.random() < 0.8:
+            code, error = self._ended(self.words, self.chance.uniform(0.0, self.takes))
+            if code > 0:
+                raise AssertionError(error)
+            drafts = [*self.folder.glob(".*.part")]
+            self.counts[LATE if code == 0 else WRITING if drafts else RUNNING] += 1
+            same = not old or self._contents()[self.output.name] == self.whole[self.output.name]
+            self.counts["wrong"] += not same
+        self.counts["resumed"] += 1
+        self._finished(self.words)
+        self._compare()
+
+
 def killed(case: str, kills: int, seed: int) -> Counter[str]:
     """So many kills of one case; what has happened."""
+    kind = Repeating if case in AGAIN else Killing
     with tempfile.TemporaryDirectory() as folder:
         try:
-            found = Killing(case, Path(folder), seed).until(kills)
+            found = kind(case, Path(folder), seed).until(kills)
         except AssertionError as fault:
             sys.stderr.write(f"{case}: {fault}\n")
             found = Counter(wrong=1)
@@ -147,13 +211,15 @@ def main() -> int:
     parser.add_argument("--kills", type=int, default=100, help="of each case")
     parser.add_argument("--jobs", type=int, default=1, help="cases at once")
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--case", action="append", choices=CASES, help="this one; repeated: these")
+    parser.add_argument(
+        "--case", action="append", choices=[*CASES, *AGAIN], help="this one; repeated: these"
+    )
     args = parser.parse_args()
     heads = "".join(f"{name:>9}" for name in SHOWN)
     sys.stdout.write(f"{'case':32}{heads}\n")
     total: Counter[str] = Counter()
     with ThreadPoolExecutor(args.jobs) as pool:
-        cases = args.case or list(CASES)
+        cases = args.case or [*CASES, *AGAIN]
         for found in pool.map(lambda case: killed(case, args.kills, args.seed), cases):
             total += found
     sys.stdout.write(f"{'all':32}{''.join(f'{total[name]:9}' for name in SHOWN)}\n")
