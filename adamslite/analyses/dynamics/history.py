@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     from adamslite.equations.system import System
     from adamslite.outputs.part_file import Part, PartFile, Stretch
 
-#: Time before the first state is written, and between two of them [s], with what it takes to be asked
-#: for and written less than five; a run that took longer than the last is not done again.
-SETTLED, EVERY, LONG = 4.5, 4.5, 1.0
+#: Time before the first state is written, and between two of them [s], less than five with what it
+#: takes to ask for one and to write it; a run that took longer than the last is not done again.
+SETTLED, EVERY, LONG = 4.0, 4.0, 1.0
 #: How long an interruption waits for the last state [s].
 PATIENCE = 0.5
 #: Codes of runs that do not end for good.
