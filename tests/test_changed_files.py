@@ -65,17 +65,9 @@ CHANGED = {
 }
 
 
-@pytest.mark.parametrize(
-    ("what", "when"),
-    [
-        ("a table", "while it runs"),
-        ("the file of RELOAD", "after it"),
-        *(pytest.param(what, "after it", marks=pytest.mark.slow)
-          for what in ("a table", "the deck", "the command file")),
-        *(pytest.param(what, "while it runs", marks=pytest.mark.slow)
-          for what in ("the deck", "the command file", "the file of RELOAD")),
-    ],
-)  # fmt: skip
+@pytest.mark.slow
+@pytest.mark.parametrize("when", ["while it runs", "after it"])
+@pytest.mark.parametrize("what", CHANGED)
 def test_what_has_changed_is_not_gone_on_with(
     tmp_path: Path, what: str, when: str, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -52,7 +52,8 @@ def goes_on(part: Path, *beside: str) -> None:
 
 
 @POSIX
-@pytest.mark.parametrize("more", [0, pytest.param(40_000, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("more", [0, 40_000])
 def test_a_disk_that_is_full_when_a_run_is_resumed(part: Path, more: int) -> None:
     """No file may get longer than that of the run, or hardly."""
     limit = LIMITED.format(most=part.stat().st_size + more)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import random
+import shutil
 import signal
 import subprocess
 import sys
@@ -180,9 +181,20 @@ def test_a_long_run_that_is_not_kept_says_so(
 
 
 class TestGoingOn:
+    @pytest.fixture(scope="class")
+    def kept(self, tmp_path_factory: pytest.TempPathFactory) -> bytes:
+        """What a run that was killed has left, in a folder that is there no more."""
+        folder = tmp_path_factory.mktemp("killed")
+        data = left_behind(folder, LONG, *FLAGS).read_bytes()
+        shutil.rmtree(folder)
+        return data
+
     @pytest.fixture
-    def part(self, tmp_path: Path) -> Path:
-        return left_behind(tmp_path, LONG, *FLAGS)
+    def part(self, kept: bytes, tmp_path: Path) -> Path:
+        """Its file, with rows before the last state, beside the deck."""
+        part = written(tmp_path, LONG).with_name("x.csv.part")
+        part.write_bytes(kept)
+        return part
 
     def test_a_deck_that_has_changed_is_refused(self, part: Path, capsys) -> None:
         part.with_name("deck.adm").write_text(LONG.replace("MASS=1", "MASS=2"))
@@ -195,6 +207,15 @@ class TestGoingOn:
         tmp_path.rename(moved)
         done = subprocess.run(command("--resume", "moved/x.csv.part"), cwd=moved.parent)
         assert done.returncode == 0 and (moved / "x.csv").read_bytes() == whole
+
+    @pytest.mark.slow
+    def test_a_page_is_written_where_the_run_would_have(self, tmp_path: Path) -> None:
+        """Not in the folder that the run happens to be resumed in."""
+        (tmp_path / "run").mkdir()
+        part = left_behind(tmp_path / "run", LONG, *FLAGS, "--page", "shown.html")
+        done = subprocess.run(command("--resume", "run/x.csv.part"), cwd=tmp_path)
+        assert done.returncode == 0 and part.with_name("shown.html").exists()
+        assert [each.name for each in tmp_path.iterdir()] == ["run"]
 
     def test_a_deck_that_has_gone_is_named(self, part: Path, capsys) -> None:
         part.with_name("deck.adm").unlink()

@@ -48,12 +48,13 @@ def write(results: Results, path: str | Path) -> None:
         "run": {name: np.array(text, dtype=object) for name, text in attributes(results).items()},
     }
     with whole_file(path, binary=True) as stream:
-        draft = stream if stream.seekable() else BytesIO()
+        memory = None if stream.seekable() else BytesIO()
+        draft = memory or stream
         savemat(draft, content)
         draft.seek(0)
         draft.write(HEAD)  # in place of one with the time of day
-        if draft is not stream:
-            stream.write(draft.getbuffer())
+        if memory:
+            stream.write(memory.getbuffer())
 
 
 def _cells(texts: list[str]) -> np.ndarray:

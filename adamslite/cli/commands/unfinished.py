@@ -57,6 +57,7 @@ def facts_of(args: argparse.Namespace, scene: Scene, saved: Mapping[str, str]) -
         "deck": _kept_place(scene.deck_path, args),
         "commands": _kept_place(scene.commands_path, args),
         **{name: getattr(args, name) for name in KEPT},
+        "page": args.page and _beside(Path(args.page), args),
     }  # fmt: skip
 
 
@@ -64,11 +65,16 @@ def _kept_place(path: Path | None, args: argparse.Namespace) -> list[str] | None
     """A file as it was named, and as seen from the folder of the results."""
     if path is None:
         return None
+    return [str(path), _beside(path, args)]
+
+
+def _beside(path: Path, args: argparse.Namespace) -> str:
+    """A file as seen from the folder of the results, which may be moved."""
     folder = os.path.dirname(os.path.abspath(args.output)) if args.output else os.getcwd()
     try:
-        return [str(path), os.path.relpath(path, folder)]
+        return os.path.relpath(path, folder)
     except ValueError:  # on another drive
-        return [str(path), os.path.abspath(path)]
+        return os.path.abspath(path)
 
 
 def _place(kept: Sequence[str] | None, folder: str, part: Path) -> Path | None:
@@ -139,6 +145,7 @@ def resumed(args: argparse.Namespace) -> PartFile:
         folder = str(facts["folder"])
         args.deck = args.deck or _place(facts["deck"], folder, path)
         args.commands = args.commands or _place(facts["commands"], folder, path)
+        args.page = args.page and str(path.parent / args.page)
         args.output = str(path.with_name(name.removesuffix(SUFFIX)))
     except (KeyError, TypeError, ValueError, AttributeError) as fault:
         part.close()
