@@ -12,6 +12,9 @@ import numpy as np
 import pytest
 from scenes import compiled, run
 
+import adamslite as al
+from adamslite.model.cycles import in_loops
+
 DECK = """Chain of variables
 UNITS/SYSTEM=MKS
 PART/1, GROUND
@@ -110,3 +113,124 @@ def test_a_jump_in_a_chain_is_a_stop() -> None:
     assert found["REQUEST/1.F2"] == pytest.approx([1, 1, 28, 28, 28])
     late = np.maximum(found.time - 0.3, 0.0)
     np.testing.assert_allclose(found["DIFF/1"], found.time + 27.0 * late, atol=1e-5)
+
+
+def test_a_variable_may_take_a_force_and_what_that_is_made_of() -> None:
+    """a = 1 + t, F = 3 a is measured as b, c = a + b, d = b + a: both are 4 a."""
+    chain = (
+        "VARIABLE/1, FUNCTION=1+TIME+0*DX(2,1)\nVFORCE/2, I=2, J_PART=1, FZ=3*VARVAL(1)\n"
+        "VARIABLE/2, FUNCTION=VFORCE(2,0,4,1)\nVARIABLE/3, FUNCTION=VARVAL(1)+VARVAL(2)\n"
+        "VARIABLE/4, FUNCTION=VARVAL(2)+VARVAL(1)\nVARIABLE/5, FUNCTION=VARVAL(3)-VARVAL(4)"
+    )
+    found = run(DECK.format(chain=chain, n=3), 0.5, 5)
+    for n in (3, 4):
+        np.testing.assert_allclose(found[f"VARIABLE/{n}"], 4.0 * (1.0 + found.time), rtol=1e-12)
+    np.testing.assert_allclose(found["VARIABLE/5"], 0.0, atol=1e-12)
+
+
+# ---- results of chains -----------------------------------------------------------------------
+
+SINES = "VARIABLE/{i}, FUNCTION=SIN(VARVAL({j}))+{c}"
+
+
+def all_results(n: int, backwards: bool = False) -> str:
+    """A chain v_i = sin v_(i-1) + c_i, every tenth of which a REQUEST takes with its rate."""
+    chain = [f"VARIABLE/1, FUNCTION={OF_STATE}"]
+    chain += [SINES.format(i=i, j=i - 1, c=1.0 + i / 1024) for i in range(2, n + 1)]
+    requests = [
+        f"REQUEST/{i}0, F2=2*VARVAL({i})\\F3=VARVAL(d({i})/dt)" for i in range(1, n + 1, 10)
+    ]
+    lines = chain + requests
+    return DECK.format(chain="\n".join(lines[::-1] if backwards else lines), n=1)
+
+
+def output_groups(text: str) -> list[int]:
+    """Characters of the code of each group that writes results."""
+    return [len(each.code) for each in compiled(text).groups if each.face == "output"]
+
+
+@pytest.mark.parametrize("backwards", [False, True])
+def test_every_link_of_a_chain_is_a_result(backwards: bool) -> None:
+    found = run(all_results(41, backwards), 0.5, 5)
+    step = 1e-30
+    value = 1.3 + 0.2 * (found["POINT_MASS/2.x"] + 1j * step * found["POINT_MASS/2.vx"])
+    for i in range(1, 42):
+        value = np.sin(value) + (1.0 + i / 1024) if i > 1 else value
+        np.testing.assert_allclose(found[f"VARIABLE/{i}"], value.real, rtol=1e-13)
+        if i % 10 == 1:
+            np.testing.assert_allclose(found[f"REQUEST/{i}0.F2"], 2.0 * value.real, rtol=1e-13)
+            rate = value.imag / step
+            np.testing.assert_allclose(found[f"REQUEST/{i}0.F3"], rate, rtol=1e-10, atol=1e-300)
+
+
+def test_results_of_a_chain_share_it() -> None:
+    """Twice as many links are as many kernels, and twice the code."""
+    few, many = (output_groups(all_results(n)) for n in (60, 120))
+    assert len(few) == len(many) < 20
+    assert sum(many) < 2.2 * sum(few)
+
+
+def test_chains_that_share_a_short_begin_only_share_their_kernels() -> None:
+    """Three chains of eleven links from one VARIABLE: the last ones are instances of one shape."""
+    chains = [f"VARIABLE/1, FUNCTION={OF_STATE}"]
+    for k in (100, 200, 300):
+        links = range(k + 1, k + 11)
+        chains.append(SINES.format(i=k, j=1, c=1.5))
+        chains += [SINES.format(i=i, j=i - 1, c=1.5) for i in links]
+    groups = compiled(DECK.format(chain="\n".join(chains), n=1)).groups
+    (together,) = (each for each in groups if each.instances.bundles)
+    members = [[each.key for each in bundle.members] for bundle in together.instances.bundles]
+    assert members == [[k + n for n in range(7, 11)] for k in (100, 200, 300)]
+
+
+def test_results_that_are_written_together_take_other_numbers() -> None:
+    kernels = compiled(all_results(30))
+    values = {"VARIABLE/20.FUNCTION": 2.5, "POINT_MASS/2.QG[0]": 0.9}
+    again, fresh = (
+        al.simulate(each, end=0.1, steps=2)
+        for each in (
+            kernels.with_values(values),
+            compiled(all_results(30).replace("VARVAL(19))+1.01953125", "VARVAL(19))+2.5")
+                     .replace("QG=1,", "QG=0.9,")),
+        )
+    )  # fmt: skip
+    for name in fresh.names:
+        np.testing.assert_array_equal(again[name], fresh[name])
+
+
+def test_what_has_no_rate_is_reported_of_its_own_statement() -> None:
+    text = all_results(30).replace("+0.2*DX(2,1)", "+0.2*ACCX(2,1)")
+    with pytest.raises(al.DeckError) as fault:
+        compiled(text)
+    assert "no-rate" in {each.code for each in fault.value.errors}
+    assert all(each.message.startswith("REQUEST/") for each in fault.value.errors)
+
+
+@pytest.mark.parametrize("first", [OF_STATE, OF_TIME, CONSTANT])
+def test_a_chain_may_be_as_long_as_the_limit_of_its_size(first: str) -> None:
+    """No part of the program calls itself for each link; v_n = n - 1 + v_1."""
+    n = 1500
+    chain = [f"VARIABLE/1, FUNCTION={first}"]
+    chain += [f"VARIABLE/{i}, FUNCTION=VARVAL({i - 1})+1" for i in range(2, n + 1)]
+    found = run(DECK.format(chain="\n".join(chain), n=n), 0.1, 1)
+    np.testing.assert_allclose(found[f"VARIABLE/{n}"], n - 1 + found["VARIABLE/1"], rtol=1e-12)
+
+
+def test_bounds_of_products_are_found_once() -> None:
+    """v_n = (v_(n-1) + 1)(v_(n-1) + 2) / 10 in a condition: as a tree it has 2^n leaves."""
+    chain = [f"VARIABLE/1, FUNCTION={OF_STATE}"]
+    for i in range(2, 60):
+        chain.append(f"VARIABLE/{i}, FUNCTION=0.1*(VARVAL({i - 1})+1)*(VARVAL({i - 1})+2)")
+    chain.append("VARIABLE/60, FUNCTION=IF(VARVAL(59): 1, 2, 3)")
+    assert run(DECK.format(chain="\n".join(chain), n=1), 0.1, 1)["VARIABLE/60"][0] == 3.0
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_members_of_cycles_are_those_that_reach_themselves(seed: int) -> None:
+    draw = np.random.default_rng(seed)
+    uses = {k: set(draw.integers(0, 14, draw.integers(0, 3)).tolist()) for k in range(12)}
+    reach = {key: set(direct) for key, direct in uses.items()}
+    for _ in uses:
+        for direct in reach.values():
+            direct |= set().union(*(reach.get(each, set()) for each in direct))
+    assert in_loops(uses) == {key for key, found in reach.items() if key in found}

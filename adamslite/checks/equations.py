@@ -11,6 +11,7 @@ from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.expression import Call, Mode, Node, Ref, calls, walk
 from adamslite.language.interfaces import Key
 from adamslite.language.statement import Statement, expressions
+from adamslite.model.cycles import behind_others
 
 # Functions without a rate, or with one that depends on what they measure.
 RATELESS = (
@@ -68,11 +69,19 @@ def _asks_markers(call: Call) -> bool:
 
 def _is_plain(deck: Deck, ref: Ref, known: dict[Key, bool]) -> bool:
     """Whether a VARIABLE is put in where it is used, and has rates."""
-    key = ref.id
-    if key not in known:
-        known[key] = False  # what comes back to it depends on itself
-        variable = deck.find(Variable, key)
-        solved = any(key in port.variables for w in PORTS for port in deck.of(w))
-        if variable is not None and not solved:
-            known[key] = _has_rates(deck, variable.function, known)
-    return known[key]
+    if ref.id not in known:  # each behind those it is made of: no recursion of the depth of a chain
+        found = behind_others([ref.id], lambda key: _taken(deck, key), known)
+        known.update(dict.fromkeys(found, False))  # what comes back to it depends on itself
+        for key in found:
+            variable = deck.find(Variable, key)
+            solved = any(key in port.variables for w in PORTS for port in deck.of(w))
+            if variable is not None and not solved:
+                known[key] = _has_rates(deck, variable.function, known)
+    return known[ref.id]
+
+
+def _taken(deck: Deck, key: Key) -> list[Key]:
+    """The VARIABLEs in the FUNCTION of one."""
+    variable = deck.find(Variable, key)
+    found = walk(variable.function) if variable is not None else ()
+    return [each.id for each in found if isinstance(each, Ref) and each.kind == "VARIABLE"]

@@ -34,6 +34,7 @@ from adamslite.language.function import PRODUCTS, find_function
 from adamslite.language.routines import USER
 from adamslite.language.statement import Statement
 from adamslite.language.traced import Traced, traced, untraced
+from adamslite.model.cycles import behind_others
 from adamslite.model.model import folded
 from adamslite.model.past import past_of
 from adamslite.symbolic.interpolant import Interpolant
@@ -81,10 +82,10 @@ class Binder:
         self.element_at: list[int] = []
         """The number of each among ``elements``; -1 while it is bound."""
         self.variables: list[Tree] = []
-        self.written: dict[bool, tuple[list[Sequence[Key]], list[int]]] = {
-            False: ([], []), True: ([], [])
-        }  # fmt: skip
-        """Ids of variables that are written out, and their numbers; by ``takes_rates``."""
+        self.written: dict[bool, list[dict[Key, int]]] = {
+            takes_rates: [{} for _ in range(count)] for takes_rates in (False, True)
+        }
+        """Numbers of the variables that are written out in each statement, by ``takes_rates``."""
         self.parts: list[Tree] = []
         self.settled: list[Traced] = []
         """Traced numbers that have become part of the shape."""
@@ -201,7 +202,7 @@ class Binder:
         kind = same([*map(type, nodes)])
         self.size += 1
         if self.size > LARGEST:
-            raise TooLarge(LARGEST, [*self.written[False][0], *self.written[True][0]])
+            raise self.too_large(LARGEST)
         if kind is Num:
             values = [node.value for node in nodes]
             return self.number(values), values
@@ -334,35 +335,25 @@ class Binder:
 
     def _number_of(self, ids: Sequence[Key]) -> int:
         """The number of a variable that is written out, which is done when it is first needed."""
-        known, numbers = self.written[self.takes_rates]
-        if ids not in known:
-            rows = [*zip(*known, strict=True)] or [()] * self.count
-            orders = [self._below(*each) for each in zip(ids, rows, strict=True)]
-            for column in transposed(orders):
+        rows = self.written[self.takes_rates]
+        orders = [
+            behind_others([key], self._written_out_in, row)
+            for key, row in zip(ids, rows, strict=True)
+        ]
+        for column in transposed(orders):
+            # A force that is measured in one of them may have brought others.
+            if same([key not in row for key, row in zip(column, rows, strict=True)]):
                 self._write_out(column)
-        return numbers[slot(known, ids)]
+        return same([row[key] for key, row in zip(ids, rows, strict=True)])
 
-    def _below(self, variable_id: Key, known: Sequence[Key]) -> list[Key]:
-        """A variable behind all that are written out in it and are not yet: no recursion of the
-        depth of a chain.
-        """
-        found: dict[Key, None] = {}
-        pending = [(variable_id, False)]
-        while pending:
-            key, complete = pending.pop()
-            if complete:
-                found[key] = None
-            elif key not in found and key not in known:
-                pending.append((key, True))
-                used = self.model.variables_of(key)
-                pending += [(each, False) for each in used if self._is_written_out(each)]
-        return list(found)
+    def _written_out_in(self, variable_id: Key) -> list[Key]:
+        """The variables that are written out in one of them."""
+        return [each for each in self.model.variables_of(variable_id) if self._is_written_out(each)]
 
     def _write_out(self, ids: Sequence[Key]) -> None:
         tree = self.expression([self.model.variable(each).function for each in ids])
-        known, numbers = self.written[self.takes_rates]
-        slot(known, ids)
-        numbers.append(len(self.variables))
+        for key, row in zip(ids, self.written[self.takes_rates], strict=True):
+            row[key] = len(self.variables)
         self.parts.append(("var", len(self.variables)))
         self.variables.append(tree)
 
@@ -384,6 +375,10 @@ class Binder:
         """Node slot of a statement's own unknowns (multipliers, V, s), -1 for a force."""
         nodes = [(statement.keyword, statement.key) for statement in statements]
         return self.node_slot(nodes) if same([*map(self.model.has_unknowns, nodes)]) else -1
+
+    def too_large(self, most: int) -> TooLarge:
+        """What is wrong with more than so many operations."""
+        return TooLarge(most, [*self.written[False][0], *self.written[True][0]])
 
     def key(self, face: str, body: Tree) -> Tree:
         """Everything that decides the native code.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Hashable
+from collections.abc import Hashable, Iterator
 from dataclasses import dataclass, field
 from itertools import chain
 from typing import TYPE_CHECKING, Any
@@ -15,10 +15,19 @@ from adamslite.deck.statement_diagnostics import diagnose, diagnose_inside
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.gc_pause import without_collection
 from adamslite.kernels.binding import Binder, ForceLoop
+from adamslite.kernels.bundles import bundles
 from adamslite.kernels.columns import Split, TooLarge, same, transposed
 from adamslite.kernels.face_writer import FaceWriter
 from adamslite.kernels.faces import faces, output_face
-from adamslite.kernels.groups import LEVELS, Binding, Instances, ShapeGroup
+from adamslite.kernels.groups import (
+    LEVELS,
+    Binding,
+    Bundle,
+    Instances,
+    ShapeGroup,
+    Writing,
+    members_of,
+)
 from adamslite.language.diagnostics import DeckError, Diagnostic
 from adamslite.language.interfaces import Key
 from adamslite.language.statement import Statement
@@ -34,41 +43,49 @@ MOST_IN_ALL = 1_000_000
 """Operations of all shapes of a deck."""
 MOST_NAMED = 5
 
-Numbered = tuple[int, Statement]
-"""A statement with its number in the order of groups and instances."""
+Numbered = tuple[int, Writing]
+"""A statement, or some that write together, with its number among groups and instances."""
 
 
 def bound(model: Model, audited: bool) -> tuple[Groups, list[tuple[Statement, tuple[str, ...]]]]:
     """All statements of a model, those of one shape together, and the values that they write."""
     settle_start(model)
     groups = Groups()
-    outputs = []
-    batches: dict[tuple[type[Statement], str], list[Numbered]] = {}
-    count = itertools.count()
-
-    def enter(statement: Statement, face: str) -> None:
-        batches.setdefault((type(statement), face), []).append((next(count), statement))
-
     with without_collection():
+        count = itertools.count()
         for variable in model.signals:  # the group of each hangs on those of others
             add(groups, model, "signal", [(next(count), variable)])
-        for statement in model.deck.statements:
-            for face in faces(statement, model):
-                if face != "signal":
-                    enter(statement, face)
-            if audited and hasattr(statement, "stored") and model.acts(statement):
-                enter(statement, "stored")
-            for face in output_face(statement):
-                outputs.append((statement, statement.result_names))
-                enter(statement, face)
-        for each in counting(model.deck.turns, model.deck.statements):
-            enter(each, "counted")
+        batches: dict[tuple[type[Writing], str], list[Numbered]] = {}
+        for each, face in _contributing(model, audited):
+            batches.setdefault((type(each), face), []).append((next(count), each))
         for (_, face), found in batches.items():
             add(groups, model, face, found)
-    return groups, outputs
+    return groups, [(each, each.result_names) for each in _writing(model)]
 
 
-def bound_again(model: Model, group: ShapeGroup, statements: list[Statement]) -> Binding | None:
+def _contributing(model: Model, audited: bool) -> Iterator[tuple[Writing, str]]:
+    """Statements with what they contribute beside signals; bundles where their first one writes."""
+    together = bundles(model, _writing(model))
+    first = {bundle.members[0]: bundle for bundle in together}
+    others = {member for bundle in together for member in bundle.members[1:]}
+    for statement in model.deck.statements:
+        for face in faces(statement, model):
+            if face != "signal":
+                yield statement, face
+        if audited and hasattr(statement, "stored") and model.acts(statement):
+            yield statement, "stored"
+        for face in output_face(statement) if statement not in others else ():
+            yield first.get(statement, statement), face
+    for statement in counting(model.deck.turns, model.deck.statements):
+        yield statement, "counted"
+
+
+def _writing(model: Model) -> list[Statement]:
+    """Statements with results."""
+    return [each for each in model.deck.statements if [*output_face(each)]]
+
+
+def bound_again(model: Model, group: ShapeGroup, statements: list[Writing]) -> Binding | None:
     """The columns of a group for other statements of a model; None where the shape is another."""
     groups = Groups()
     add(groups, model, group.face, [*enumerate(statements)])
@@ -97,7 +114,7 @@ class Collected:
         """The least number."""
         return min(part[0][0] for part, _ in self.parts)
 
-    def columns(self) -> tuple[list[Statement], Binding]:
+    def columns(self) -> tuple[list[Writing], Binding]:
         """The statements in order, and what fills the slots."""
         numbered = [each for part, _ in self.parts for each in part]
         order = sorted(range(len(numbered)), key=lambda k: numbered[k][0])
@@ -161,6 +178,8 @@ def add(groups: Groups, model: Model, face: str, statements: list[Numbered]) -> 
     pending = [statements]
     while pending:
         part = pending.pop()
+        if not part:
+            continue
         try:
             _bind(groups, model, face, part)
         except Split as split:
@@ -168,23 +187,24 @@ def add(groups: Groups, model: Model, face: str, statements: list[Numbered]) -> 
             for label, each in zip(split.labels, part, strict=True):
                 parts.setdefault(label, []).append(each)
             pending += parts.values()
-        except ForceLoop as loop:
+        except (ForceLoop, TooLarge) as fault:
             number, statement = part[0]
-            groups.loops[number] = _loop(statement, str(loop))
-        except TooLarge as large:
-            number, statement = part[0]
-            groups.loops[number] = _too_large(statement, large)
-            return
+            if isinstance(statement, Bundle) and groups.size <= MOST_IN_ALL:
+                pending += [part[1:], *([(number, half)] for half in reversed(statement.halves()))]
+                continue
+            groups.loops[number] = _refused(members_of(statement)[0], fault)
+            if isinstance(fault, TooLarge):
+                return
 
 
 def _bind(groups: Groups, model: Model, face: str, numbered: list[Numbered]) -> None:
     """Enter statements of one shape; raises :class:`Split` where they are not."""
-    statements = [statement for _, statement in numbered]
-    binder, statement = Binder(model, len(statements)), statements[0]
-    fields, own = _faced(binder, statements, face)
+    members = [members_of(each) for _, each in numbered]
+    binder, statements = Binder(model, len(members)), [each[0] for each in members]
+    fields, own, statement = *_faced(binder, members, face), statements[0]
     groups.size += binder.size
     if groups.size > MOST_IN_ALL:
-        raise TooLarge(MOST_IN_ALL, [*binder.written[False][0], *binder.written[True][0]])
+        raise binder.too_large(MOST_IN_ALL)
     held = (((each.keyword, each.key) in model.held, each) for each in statements)
     rate = same([on and isinstance(s, Constraint) and s.is_rate(model) for on, s in held])
     key = binder.key(face, (statement.keyword, fields, own, rate))
@@ -205,12 +225,11 @@ def _bind(groups: Groups, model: Model, face: str, numbered: list[Numbered]) -> 
     binder.columns = binder.columns.row(slice(1))
 
 
-def _faced(binder: Binder, statements: list[Statement], face: str) -> tuple[Tree, int]:
+def _faced(binder: Binder, members: list[tuple[Statement, ...]], face: str) -> tuple[Tree, int]:
     """What a face is made of, and the slot of its own unknowns."""
     if face == "output":
-        found = transposed([binder.model.outputs_of(each) for each in statements])
-        values = tuple([binder.output(nodes, statements) for nodes in found])
-        return values, binder.node_slot([("OUTPUT", each) for each in statements])
+        return tuple([_written(binder, column) for column in transposed(members)]), -1
+    statements = [each[0] for each in members]
     if face == "counted":
         found = transposed([counted(each) for each in statements])
         return tuple([binder.expression(nodes) for nodes in found]), -1
@@ -222,14 +241,25 @@ def _faced(binder: Binder, statements: list[Statement], face: str) -> tuple[Tree
     return fields, binder.unknowns(statements)
 
 
+def _written(binder: Binder, statements: list[Statement]) -> tuple[int, Tree]:
+    """The slot of the rows that statements write, and the values."""
+    found = transposed([binder.model.outputs_of(each) for each in statements])
+    values = tuple([binder.output(nodes, statements) for nodes in found])
+    return binder.node_slot([("OUTPUT", each) for each in statements]), values
+
+
+def _refused(statement: Statement, fault: ForceLoop | TooLarge) -> Diagnostic:
+    """What there is to say of a force that depends on itself, and of a statement whose expressions
+    grow when VARIABLEs are written out.
+    """
+    if isinstance(fault, ForceLoop):
+        return diagnose_inside(statement, str(fault), "force-loop", other=str(fault))
+    return _too_large(statement, fault)
+
+
 def _too_large(statement: Statement, large: TooLarge) -> Diagnostic:
-    """What there is to say of a statement whose expressions grow when VARIABLEs are written out."""
     code = "deck-too-large" if large.most == MOST_IN_ALL else "expression-too-large"
-    named = [f"VARIABLE/{each}" for each in dict.fromkeys(ids[0] for ids in large.variables)]
+    named = [f"VARIABLE/{each}" for each in dict.fromkeys(large.variables)]
     few = ", ".join(named[:MOST_NAMED]) + ", ..." * (len(named) > MOST_NAMED)
     hint = f"written out in it: {few}" if named else ""
     return diagnose(statement, code, hint=hint, most=large.most)
-
-
-def _loop(statement: Statement, other: str) -> Diagnostic:
-    return diagnose_inside(statement, other, "force-loop", other=other)

@@ -22,11 +22,11 @@ half a minute and gigabytes.
 
 
 class TooLarge(Exception):
-    """Expressions of more than ``most`` operations; ``variables`` are columns of the ids of
-    VARIABLEs that are written out in them.
+    """Expressions of more than ``most`` operations; ``variables``: ids of VARIABLEs that are
+    written out in the first of them.
     """
 
-    def __init__(self, most: int, variables: Sequence[Sequence[int | str]]) -> None:
+    def __init__(self, most: int, variables: Sequence[int | str]) -> None:
         super().__init__(most)
         self.most, self.variables = most, variables
 

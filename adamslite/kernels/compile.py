@@ -14,11 +14,13 @@ from adamslite.deck.statement_diagnostics import diagnose_inside
 from adamslite.kernels.collecting import Groups, add, bound
 from adamslite.kernels.faces import faces, output_face
 from adamslite.kernels.groups import (
+    Bundle,
     Kernels,
     Meta,
     ShapeGroup,
     Writer,
     linked,
+    members_of,
 )
 from adamslite.language.diagnostics import DeckError, Diagnostic
 from adamslite.language.statement import Statement
@@ -29,6 +31,10 @@ from adamslite.symbolic.scope import Scope, UndefinedRate
 
 LONG_TEXT = 1_000_000
 """Characters of LLVM assembly; a force that is a sum of 1000 sines has as many."""
+LONG_RESULTS = 200_000
+"""The same of results, which are evaluated at output times alone; a chain of 200 to 400 VARIABLEs
+has as many.
+"""
 
 
 def compile_model(
@@ -59,7 +65,8 @@ def _compile(group: ShapeGroup, progress: Progress | None) -> bool:
         return made[0]
 
     group.meta = recall_json(f"{group.name}.json", lambda: text_and_meta()[1])
-    group.code = recall(group.entry, lambda: _code(text_and_meta()[0]))
+    longest = LONG_RESULTS if group.face == "output" else LONG_TEXT
+    group.code = recall(group.entry, lambda: _code(text_and_meta()[0], longest))
     return bool(made)
 
 
@@ -67,7 +74,7 @@ def writer_of(kernels: Kernels, group: ShapeGroup) -> Writer:
     """The writer of a group; of kernels that were kept between runs one instance is bound again."""
     if group.write is None:
         made = Groups()
-        add(made, kernels.model, group.face, [(0, group.instances.statements[0])])
+        add(made, kernels.model, group.face, [(0, group.instances.writing[0])])
         (group.write,) = (each.write for each in made.values() if each.name == group.name)
     return group.writer
 
@@ -107,11 +114,11 @@ def tangents(kernels: Kernels, group: ShapeGroup) -> tuple[int, ...]:
     return tuple(kernels.addresses.get(each, 0) for each in names)
 
 
-def _code(text: str) -> bytes:
+def _code(text: str, longest: int) -> bytes:
     """Object code: of very long bodies in an eighth of the time, by passes that do not grow faster
     than the body.
     """
-    make = compiler.quick_code if len(text) > LONG_TEXT else compiler.straight_code
+    make = compiler.quick_code if len(text) > longest else compiler.straight_code
     return make(text)
 
 
@@ -119,7 +126,9 @@ def _kernels(group: ShapeGroup) -> tuple[str, Meta]:
     try:
         return group.writer.kernels(group.name)
     except UndefinedRate as fault:
-        raise DeckError([_no_rate(group, fault)], group.writer.binder.model.deck) from None
+        model, first = group.writer.binder.model, group.instances.writing[0]
+        own = unformed(model, members_of(first)) if isinstance(first, Bundle) else ()
+        raise DeckError([*own] or [_no_rate(group, fault)], model.deck) from None
 
 
 def unformed(model: Model, statements: Iterable[Statement]) -> Iterator[Diagnostic]:

@@ -86,8 +86,7 @@ class FaceWriter:
             scope.elements.append(symbolic_view(keyword, fields, node, width, scope, self.n_bodies))
         row = self.n_bodies + self.own
         if self.face in ("output", "counted"):
-            values = [(row, n, scope.read(tree)) for n, tree in enumerate(self.fields)]
-            return Outputs(rows=values if self.face == "output" else [])
+            return Outputs(rows=self._results(scope))
         width = widths(nodes[self.own]) if self.own >= 0 else 0
         view = symbolic_view(self.keyword, self.fields, self.own, width, scope, self.n_bodies)
         if self.face == "loads":
@@ -107,6 +106,18 @@ class FaceWriter:
         rows = [_rates(scope, e, self.level)[-1] for e in view.cls.constraints(view, scope)]
         numbered = [(row, n, e) for n, e in enumerate(rows)]
         return Outputs(rows=numbered, rates_only=self.face == "acceleration")
+
+    def _results(self, scope: Scope) -> list[tuple[int, int, Expr]]:
+        """The rows of what is written; what is only counted is read and written nowhere."""
+        if self.face == "counted":
+            for tree in self.fields:
+                scope.read(tree)
+            return []
+        return [
+            (self.n_bodies + node, n, scope.read(tree))
+            for node, trees in self.fields
+            for n, tree in enumerate(trees)
+        ]
 
 
 def _rates(scope: Scope, expr: Expr, order: int) -> list[Expr]:

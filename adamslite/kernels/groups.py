@@ -52,20 +52,64 @@ class Binding:
         return Binding(*([column[number] for column in columns] for columns in self.fields()))
 
 
+@dataclass(frozen=True, eq=False)
+class Bundle:
+    """Statements whose results one kernel writes; it goes by the name of the first one."""
+
+    members: tuple[Statement, ...]
+
+    def halves(self) -> tuple[Writing, Writing]:
+        """Two with half of the members each."""
+        middle = len(self.members) // 2
+        return _together(self.members[:middle]), _together(self.members[middle:])
+
+
+Writing: TypeAlias = "Statement | Bundle"
+
+
+def members_of(writing: Writing) -> tuple[Statement, ...]:
+    """The statements of a bundle; of a statement itself."""
+    return writing.members if isinstance(writing, Bundle) else (writing,)
+
+
+def replaced(writing: Writing, changed: Mapping[int, Statement]) -> Writing:
+    """A statement, or a bundle, with those that changed; ``changed``: by ``id`` of the old ones."""
+    if not isinstance(writing, Bundle):
+        return changed.get(id(writing), writing)
+    if not any(id(each) in changed for each in writing.members):
+        return writing
+    return Bundle(tuple([changed.get(id(each), each) for each in writing.members]))
+
+
+def _together(members: tuple[Statement, ...]) -> Writing:
+    return Bundle(members) if len(members) > 1 else members[0]
+
+
 class Instances(Sequence[tuple["Statement", Binding]]):
     """The instances of a shape: statements, and in ``columns`` what fills each slot in all of them.
 
     Numbers and ids are arrays: objects for each instance would take ten times the memory.
     """
 
-    def __init__(self, statements: Sequence[Statement], columns: Binding) -> None:
-        self.statements = statements
+    def __init__(self, writing: Sequence[Writing], columns: Binding) -> None:
+        self._enter(writing)
         self.columns = Binding(*([*map(compact, found)] for found in columns.fields()))
 
-    def but(self, statements: Sequence[Statement], columns: Binding) -> Instances:
+    def _enter(self, writing: Sequence[Writing]) -> None:
+        self.bundles = [each for each in writing if isinstance(each, Bundle)]
+        """What writes together; the statements are the first ones then."""
+        self.statements: Sequence[Statement] = [members_of(each)[0] for each in writing]
+
+    @property
+    def writing(self) -> Sequence[Writing]:
+        """The bundles, or the statements."""
+        return self.bundles or self.statements
+
+    def but(self, writing: Sequence[Writing], columns: Binding) -> Instances:
         """The same instances with other statements and columns, which are compact."""
         made = Instances.__new__(Instances)
-        made.statements, made.columns = statements, columns
+        made._enter(writing)
+        made.columns = columns
         return made
 
     def __len__(self) -> int:

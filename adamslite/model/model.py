@@ -35,7 +35,7 @@ from adamslite.language.expression import (
 from adamslite.language.interfaces import Key
 from adamslite.language.routines import USER
 from adamslite.language.statement import class_of, expressions
-from adamslite.model.cycles import in_loops
+from adamslite.model.cycles import behind_others, in_loops
 from adamslite.model.geometry import IDENTITY, Place, frame_axes, rotated
 
 if TYPE_CHECKING:
@@ -273,11 +273,12 @@ class Model:
 
     def constant_variable(self, variable_id: Key) -> float | None:
         """Value of a VARIABLE that never changes."""
-        if variable_id not in self.folded:
-            self.folded[variable_id] = None
-            if variable_id in self._plant or "variables" in self.without:
-                return None
-            self.folded[variable_id] = self.constant(self.variable(variable_id).function)
+        if variable_id not in self.folded:  # each behind those it is made of: no deep recursion
+            found = behind_others([variable_id], self.variables_of, self.folded)
+            self.folded.update(dict.fromkeys(found))
+            for key in found:
+                fixed = key not in self._plant and "variables" not in self.without
+                self.folded[key] = self.constant(self.variable(key).function) if fixed else None
         return self.folded[variable_id]
 
     def variable_kind(self, variable_id: Key) -> str:
@@ -296,7 +297,12 @@ class Model:
     @cached_property
     def circular(self) -> set[Key]:
         """VARIABLEs that depend on themselves."""
-        return in_loops({v.key: set(self._uses(v.function)) for v in self.deck.of(Variable)})
+        return in_loops(self.uses)
+
+    @cached_property
+    def uses(self) -> dict[Key, set[Key]]:
+        """The VARIABLEs that each one depends on, through the elements it measures too."""
+        return {v.key: set(self.used_in(v.function)) for v in self.deck.of(Variable)}
 
     @cached_property
     def _kinds(self) -> dict[Key, str]:
@@ -312,17 +318,8 @@ class Model:
     @cached_property
     def signals(self) -> list[Variable]:
         """VARIABLEs that depend on time only, each behind those it takes the values of."""
-        found: dict[Key, None] = {}
         own = [v.key for v in self.deck.of(Variable) if self.variable_kind(v.key) == "signal"]
-        pending = [(key, False) for key in own[::-1]]
-        while pending:
-            key, complete = pending.pop()
-            if complete:
-                found[key] = None
-            elif key not in found:
-                pending.append((key, True))
-                pending += [(each, False) for each in self.variables_of(key)]
-        return [self.variable(key) for key in found]
+        return [self.variable(key) for key in behind_others(own, self.variables_of)]
 
     def variables_of(self, variable_id: Key) -> list[Key]:
         """The VARIABLEs whose values the FUNCTION of one takes."""
@@ -332,8 +329,8 @@ class Model:
             if isinstance(each, Ref)
         )))  # fmt: skip
 
-    def _uses(self, node: Node) -> Iterator[Key]:
-        """Variables an expression depends on, through the elements it measures too."""
+    def used_in(self, node: Node) -> Iterator[Key]:
+        """The VARIABLEs in an expression, and in those of the elements it measures."""
         seen: set[Node] = set()
         pending = [node]
         while pending:
@@ -357,9 +354,17 @@ class Model:
             for v in self.deck.of(Variable)
             if v.key not in loops
         }
+        users: dict[Key, list[Key]] = {}
+        for key, names in used.items():
+            for each in names or ():
+                users.setdefault(each, []).append(key)
+        others = [key for key in users if used.get(key) is None]
         found = {key for key, names in used.items() if names is not None}
-        while others := {key for key in found if not (used[key] or set()) <= found}:
-            found -= others
+        while others:
+            for user in users.get(others.pop(), ()):
+                if user in found:
+                    found.remove(user)
+                    others.append(user)
         return found
 
     @property

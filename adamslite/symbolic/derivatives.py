@@ -15,7 +15,7 @@ Reference: Griewank, Walther, Evaluating Derivatives, 2008, chapters 3 and 6.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from adamslite.symbolic.graph import ONE, TRUE, ZERO, Given, Node, add, choice, mul, node
 from adamslite.symbolic.slopes import slopes
@@ -89,18 +89,25 @@ class Derivatives:
         }
 
 
-def along(expr: Given, rates: Mapping[Node, Node]) -> Node:
-    """The derivative in the direction in which symbols change at given rates, others not at all."""
-    expr, found = node(expr), dict(rates)
-    for top in ordered([expr], lambda top: top.args[:: 1 + (top.kind == "choice")]):
+def along(expr: Given, found: dict[Node, Node]) -> Node:
+    """The derivative in the direction in which symbols change at rates that are ``found``, others
+    not at all; the rates of all parts are added to these.
+    """
+    expr = node(expr)
+    for top in ordered([expr], lambda top: () if top in found else _values(top)):
+        if top in found:
+            continue
         if top.kind == "choice":
             pieces = [(found[value], condition) for value, condition in top.pieces]
             found[top] = choice([*pieces, (found[top.args[-1]], TRUE)], top.order)
-        elif top.args and top not in found:
-            found[top] = _rate(top, found)
         else:
-            found.setdefault(top, ZERO)
+            found[top] = _rate(top, found)
     return found[expr]
+
+
+def _values(top: Node) -> Sequence[Node]:
+    """What the value of a node changes with: its arguments, of a choice no conditions."""
+    return top.args[:: 1 + (top.kind == "choice")]
 
 
 def _rate(top: Node, rates: Mapping[Node, Node]) -> Node:

@@ -15,7 +15,7 @@ import math
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from adamslite.symbolic.structure import OPPOSITE, Vertex, factors, holds, least, raised
+from adamslite.symbolic.structure import OPPOSITE, Vertex, factors, holds, raised
 
 Given = Any
 """A node, or a number or a truth in its place."""
@@ -340,11 +340,11 @@ def relation(kind: str, a: Node, b: Node) -> Node:
     for sign, gap in ((1.0, sub(a, b)), (-1.0, sub(b, a))):
         if gap.kind == "number" and gap is not NAN:
             return node(holds(kind, sign * gap.value))
-        if least(gap) > 0.0:
+        if gap.least > 0.0:
             return node(holds(kind, sign))
-        if least(gap) == 0.0 and kind in ("<", ">=") and sign > 0.0:
+        if gap.least == 0.0 and kind in ("<", ">=") and sign > 0.0:
             return node(kind == ">=")
-        if least(gap) == 0.0 and kind in (">", "<=") and sign < 0.0:
+        if gap.least == 0.0 and kind in (">", "<=") and sign < 0.0:
             return node(kind == "<=")
     return made(kind, a, b)
 

@@ -29,6 +29,7 @@ from adamslite.symbolic import graph
 from adamslite.symbolic.derivatives import Derivatives, along
 from adamslite.symbolic.formulas import fn, piecewise, root
 from adamslite.symbolic.guards import CLOCK_LEAVES, FIXED_LEAVES
+from adamslite.symbolic.structure import ordered
 from adamslite.symbolic.types import Expr, Frame, Leaf, Measure, Read, Seen, Symbol, Tree
 
 ORIGIN = -1
@@ -122,6 +123,10 @@ class Scope:
         self.elements: list[Seen] = []
         self.variables: list[Tree] = []
         self._everything_moves = False
+        self._rates: dict[bool, dict[Expr, Expr]] = {}
+        """Rates that are known, by ``_everything_moves``."""
+        self._rated: dict[bool, set[Expr]] = {False: set(), True: set()}
+        """Expressions of whose symbols the rates are."""
         self.read: Callable[[Tree], Read] = _unbound
 
     def symbol(self, *leaf: str | int) -> Symbol:
@@ -301,8 +306,14 @@ class Scope:
 
     def derivative(self, expr: Expr) -> Expr:
         """Total time derivative of an expression of these symbols."""
-        symbols = sorted(self.slope.symbols(expr), key=str)
-        return along(expr, {each: graph.node(self.rate(self.leaves[each])) for each in symbols})
+        expr, known = graph.node(expr), self._rated[self._everything_moves]
+        parts = ordered([expr], lambda top: () if top in known else top.args)
+        rates = self._rates.setdefault(self._everything_moves, {})
+        symbols = [each for each in parts if each.kind == "symbol" and each not in rates]
+        for each in sorted(symbols, key=str):
+            rates[each] = graph.node(self.rate(self.leaves[each]))
+        known.update(parts)
+        return along(expr, rates)
 
     def rate(self, leaf: Leaf) -> Expr:
         """Time derivative of one leaf."""

@@ -28,15 +28,21 @@ N = TypeVar("N", bound="Vertex")
 
 
 class Vertex:
-    """A part of an expression: its kind, its arguments, its value, its order."""
+    """A part of an expression: its kind, its arguments, its value, its order.
 
-    __slots__ = ("kind", "args", "value", "order")
+    ``depth``: how many nodes are below each other in it, itself included.
+    """
+
+    __slots__ = ("kind", "args", "value", "order", "depth", "least")
 
     def __init__(self, kind: str, args: tuple[Any, ...], value: Any, order: int | None) -> None:
         self.kind = kind
         self.args: tuple[Self, ...] = args
         self.value = value
         self.order = order
+        self.depth: int = 1 + max([each.depth for each in args], default=0)
+        self.least: float = _least(self)
+        """A bound that it does not fall below, as far as squares and numbers tell it."""
 
     def __bool__(self) -> bool:
         if self.kind in OPPOSITE or self.kind in ("and", "or", "not"):
@@ -93,17 +99,16 @@ def holds(kind: str, gap: float) -> bool:
     return known[kind] if kind in known else gap == gap and not known[OPPOSITE[kind]]
 
 
-def least(a: Vertex) -> float:
-    """A bound that a node does not fall below, as far as squares and numbers tell it."""
+def _least(a: Vertex) -> float:
     if a.kind == "number":
         return a.value if a.value == a.value else -math.inf
     if a.kind == "+":
-        return least(a.args[0]) + least(a.args[1])
+        return a.args[0].least + a.args[1].least
     if a.kind == "**":
         n = raised(a)[1]
         return 0.0 if n is not None and (n % 2.0 == 0.0 or n % 1.0 != 0.0) else -math.inf
     if a.kind in ("*", "/"):
-        both = a.args[0] is a.args[1] or min(map(least, a.args)) >= 0.0
+        both = a.args[0] is a.args[1] or min(each.least for each in a.args) >= 0.0
         return 0.0 if both else -math.inf
     return {"exp": 0.0, "cosh": 1.0}.get(a.kind, -math.inf)
 

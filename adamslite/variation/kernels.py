@@ -15,6 +15,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from copy import copy
 from dataclasses import dataclass, field, replace
 from math import isfinite
+from operator import is_not
 from typing import Any
 
 from adamslite.assembly.start_posture import settle_start
@@ -25,7 +26,7 @@ from adamslite.elements.point_mass import PointMass
 from adamslite.gc_pause import without_collection
 from adamslite.kernels.collecting import bound, bound_again
 from adamslite.kernels.compile import compile_model
-from adamslite.kernels.groups import Binding, Instances, Kernels
+from adamslite.kernels.groups import Binding, Instances, Kernels, replaced
 from adamslite.language.diagnostics import DeckError
 from adamslite.language.expression import Ref, walk
 from adamslite.language.statement import Statement
@@ -126,15 +127,16 @@ class Refill:
             return None
         groups = []
         for k, group in enumerate(self.kernels.groups):
-            statements = [changed.get(id(each), each) for each in group.instances.statements]
+            before = group.instances.writing
+            writing = [replaced(each, changed) for each in before]
             columns: Binding | None = group.instances.columns
             if k in self.deriving and (moved or not owns.isdisjoint(self.deriving[k])):
-                columns = bound_again(model, group, statements)
-            elif k in params or any(map(changed.get, map(id, group.instances.statements))):
+                columns = bound_again(model, group, writing)
+            elif k in params or any(map(is_not, writing, before)):
                 columns = _with(group.instances.columns, params.get(k, {}), changed)
             if columns is None:
                 return None
-            instances = group.instances.but(statements, columns)
+            instances = group.instances.but(writing, columns)
             groups.append(replace(group, instances=instances))
         outputs = [(changed.get(id(each), each), names) for each, names in self.kernels.outputs]
         return replace(self.kernels, model=model, groups=groups, outputs=outputs, compiled=0)

@@ -12,6 +12,7 @@ from collections.abc import Iterable
 from adamslite.kernels.code.shape import Outputs, Shape
 from adamslite.symbolic.graph import node
 from adamslite.symbolic.scope import Frame, Load, Scope
+from adamslite.symbolic.structure import ordered
 from adamslite.symbolic.types import Expr
 
 ACCELERATIONS = ("a", "al")
@@ -63,19 +64,20 @@ class Degrees:
         self._found: dict[Expr, int] = {}
 
     def __call__(self, expr: Expr) -> int:
-        expr = node(expr)
-        if expr not in self._found:
-            self._found[expr] = self._degree(expr)
-        return self._found[expr]
+        expr, known = node(expr), self._found
+        for top in ordered([expr], lambda top: () if top in known else top.args):
+            if top not in known:
+                known[top] = self._degree(top, [known[each] for each in top.args])
+        return known[expr]
 
-    def _degree(self, expr: Expr) -> int:
-        symbols = self.scope.slope.symbols(expr)
-        if not any(self.scope.leaves[s][0] in ACCELERATIONS for s in symbols):
+    def _degree(self, top: Expr, parts: list[int]) -> int:
+        """The degree of a node whose arguments have these."""
+        if top.kind == "symbol":
+            return int(self.scope.leaves[top][0] in ACCELERATIONS)
+        if not any(parts):
             return 0
-        if expr.kind == "symbol":
-            return 1
-        if expr.kind in ("+", "-", "neg"):
-            return max(map(self, expr.args))
-        if expr.kind == "/" and self(expr.args[1]):
+        if top.kind in ("+", "-", "neg"):
+            return max(parts)
+        if top.kind == "/" and parts[1]:
             return HIGHER
-        return min(sum(map(self, expr.args)), HIGHER) if expr.kind in "*/" else HIGHER
+        return min(sum(parts), HIGHER) if top.kind in "*/" else HIGHER

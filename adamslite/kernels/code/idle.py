@@ -18,16 +18,19 @@ or product that is too large for a double is taken for a number.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import reduce
 
 from adamslite.native.llvm_builder import Builder, Value
+from adamslite.symbolic.structure import ordered
 from adamslite.symbolic.types import Expr
 
 Truth = bool | str
 """Known now, or the name of an ``i1``."""
 ALWAYS: Truth = True
 NEVER: Truth = False
+DEEPEST = 100
+"""Nodes below each other that the test goes through: it calls itself for each."""
 #: Functions that have a value wherever their arguments have one.
 TOTAL = frozenset("+ - * neg sin cos tan atan atan2 tanh floor".split())
 
@@ -43,8 +46,10 @@ class IdleTest:
         self.branches = branches
         self.memo: dict[Expr, Truth] = {}
 
-    def __call__(self, expressions: Iterable[Expr]) -> Truth:
-        """Whether all of them vanish."""
+    def __call__(self, expressions: Sequence[Expr]) -> Truth:
+        """Whether all of them vanish; what is nested too deeply is taken not to."""
+        if any(each.depth > DEEPEST for each in expressions):
+            return NEVER
         return reduce(self._both, map(self._vanishes, expressions), ALWAYS)
 
     def _vanishes(self, expr: Expr) -> Truth:
@@ -252,6 +257,9 @@ class StrictIdleTest(IdleTest):
 
 def _is_sum_of_squares(expr: Expr) -> bool:
     """Whether an expression is never negative, by its form."""
-    if expr.kind == "+":
-        return all(map(_is_sum_of_squares, expr.args))
+    terms = ordered([expr], lambda top: top.args if top.kind == "+" else ())
+    return all(each.kind == "+" or _is_even_power(each) for each in terms)
+
+
+def _is_even_power(expr: Expr) -> bool:
     return expr.kind == "**" and expr.args[1].kind == "number" and expr.args[1].value % 2.0 == 0.0

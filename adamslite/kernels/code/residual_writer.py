@@ -12,6 +12,7 @@ from adamslite.kernels.code.workspace import HEAD, MODE, RUN, TIME
 from adamslite.native.llvm_builder import Builder, Value
 from adamslite.symbolic.graph import node
 from adamslite.symbolic.scope import UNFORESEEN, Load, Scope, Slot
+from adamslite.symbolic.structure import ordered
 from adamslite.symbolic.types import Expr, Frame, Leaf
 
 
@@ -31,8 +32,10 @@ class ResidualWriter:
 
     def value(self, expr: Expr) -> Value:
         """Lower an expression, loading the leaves it uses first."""
-        expr = node(expr)
-        for symbol in sorted(self.scope.slope.symbols(expr), key=str):
+        expr, known = node(expr), self.lower.memo
+        parts = ordered([expr], lambda top: () if top in known else top.args)
+        symbols = [each for each in parts if each.kind == "symbol" and each not in known]
+        for symbol in sorted(symbols, key=str):
             if symbol not in self.lower.leaves:
                 self.lower.leaves[symbol] = self.leaf(self.scope.leaves[symbol])
         return self.lower(expr)
