@@ -56,3 +56,19 @@ def behind_others(
             pending.append((key, True))
             pending += [(each, False) for each in used(key)]
     return found
+
+
+def of_each_other(uses: dict[Key, set[Key]]) -> set[Key]:
+    """Keys that use nothing, directly or not, but what ``uses`` has."""
+    users: dict[Key, list[Key]] = {}
+    for key, direct in uses.items():
+        for each in direct:
+            users.setdefault(each, []).append(key)
+    found = set(uses)
+    others = [key for key in users if key not in found]
+    while others:
+        for user in users.get(others.pop(), ()):
+            if user in found:
+                found.remove(user)
+                others.append(user)
+    return found

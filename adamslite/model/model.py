@@ -35,7 +35,7 @@ from adamslite.language.expression import (
 from adamslite.language.interfaces import Key
 from adamslite.language.routines import USER
 from adamslite.language.statement import class_of, expressions
-from adamslite.model.cycles import behind_others, in_loops
+from adamslite.model.cycles import behind_others, in_loops, of_each_other
 from adamslite.model.geometry import IDENTITY, Place, frame_axes, rotated
 
 if TYPE_CHECKING:
@@ -354,18 +354,7 @@ class Model:
             for v in self.deck.of(Variable)
             if v.key not in loops
         }
-        users: dict[Key, list[Key]] = {}
-        for key, names in used.items():
-            for each in names or ():
-                users.setdefault(each, []).append(key)
-        others = [key for key in users if used.get(key) is None]
-        found = {key for key, names in used.items() if names is not None}
-        while others:
-            for user in users.get(others.pop(), ()):
-                if user in found:
-                    found.remove(user)
-                    others.append(user)
-        return found
+        return of_each_other({key: names for key, names in used.items() if names is not None})
 
     @property
     def dof(self) -> int:
