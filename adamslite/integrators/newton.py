@@ -176,8 +176,9 @@ def multiplier_change(P: Problem, dz: Reals, z: Reals, ca: float) -> float:
 
 
 @native
-def velocity_change(P: Problem, before: Reals, cu: float) -> float:
-    """Largest change of a velocity by an increment of q and mu, above the round-off of positions.
+def velocity_change(P: Problem, before: Reals, noise: float) -> float:
+    """Largest change of a velocity by an increment of q and mu, above ``noise`` times the round-off
+    of positions.
 
     mu itself shows little: its share W G^T mu of the velocities may be a hundred times larger.
     """
@@ -186,4 +187,4 @@ def velocity_change(P: Problem, before: Reals, cu: float) -> float:
         reach = max(reach, abs(P.q[i]))
         change = abs(P.u[i] - before[i])
         largest = maximum(largest, change)
-    return largest if largest > cu * ROUND_OFF * reach else 0.0
+    return largest if largest > noise * ROUND_OFF * reach else 0.0

@@ -110,7 +110,8 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
             # One rounding for all: noise of q is noise of forces.
             P.q[i] = P.history[i] + (yp[i] + e[i])
         motion_from_increments(P, cu, yp, psi, si2)
-        size = max(size, further_change(P, cu, si2))
+        # What an old matrix leaves open shrinks, noise does not: the first change is no noise.
+        size = max(size, further_change(P, cu, cu if iteration > 0 else 0.0, si2))
         P.count.newton += 1
         if iteration > 0:
             C.rate = max(LEAST_RATE, size / last)
@@ -127,11 +128,12 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
 
 
 @native
-def further_change(P: Problem, cu: float, si2: bool) -> float:
+def further_change(P: Problem, cu: float, noise: float, si2: bool) -> float:
     """What an increment changed besides positions: velocities in the stabilised form (those before
-    stand in ``P.x``) and, with CORRECTOR=ORIGINAL, multipliers.
+    stand in ``P.x``), above ``noise`` times the round-off of positions, and, with
+    CORRECTOR=ORIGINAL, multipliers.
     """
-    size = velocity_change(P, P.x, cu) if si2 else 0.0
+    size = velocity_change(P, P.x, noise) if si2 else 0.0
     if P.settings.all_converge:
         size = max(size, multiplier_change(P, P.F, P.z, cu * cu))
     return size
