@@ -155,6 +155,17 @@ def test_figures_are_in_si_units() -> None:
     assert metres == millimetres
 
 
+@pytest.mark.parametrize(
+    ("metre", "force"), [(1.0, "NEWTON"), (1000.0, "NEWTON"), (1.0, "KILOGRAM_FORCE")]
+)
+def test_masses_are_those_of_the_deck_in_any_units(metre: float, force: str) -> None:
+    """10 kg/m on 0.99996 m each, 500 kg and half a section: UCF = 1, 1000 and 9.80665."""
+    text = pendulum(50.0, SPRINGS["SFORCE"], metre).replace("FORCE=NEWTON", f"FORCE={force}")
+    (cable,) = cables(adamslite.read(text))
+    assert cable.demand.density == pytest.approx(10 / 0.99996, rel=1e-9)
+    assert cable.demand.moved == pytest.approx(505.0, rel=1e-9)
+
+
 @pytest.mark.parametrize(("rope", "level"), [(50.0, 2), (2.0, 1)])
 def test_a_light_rope_may_be_rigid(rope: float, level: int) -> None:
     """rho l < p M: 2 kg of rope are 0.4 % of the weight, 50 kg are 10 %. It hangs in balance."""

@@ -85,6 +85,9 @@ def parallelogram(rate: float = -1.0) -> str:
         (0.9, 0.003, 1e-9),
         (1.7, 0.006, 1e-9),
         (1.4, 0.004, 1e-10),
+        (0.9, 0.002, 1e-9),
+        (1.1, 0.003, 1e-9),
+        (2.1, 0.002, 1e-10),
     ],
 )
 def test_a_flattened_parallelogram_stays_one_or_stops(
