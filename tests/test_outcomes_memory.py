@@ -14,7 +14,7 @@ from scenes import GROUND, done, run
 
 import adamslite as al
 from adamslite import Outcome, machine
-from adamslite.analyses.session.session import session, session_state
+from adamslite.analyses.session import session, session_state
 from adamslite.analyses.setup import run_size
 from adamslite.analyses.setup.output_times import rows_of
 from adamslite.analyses.setup.run_options import size_of
