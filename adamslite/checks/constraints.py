@@ -321,8 +321,14 @@ def _heights(deck: Deck, curve: Curve) -> Iterator[float]:
 @needs("VARIABLE")
 def measured_markers(deck: Deck) -> Iterator[Diagnostic]:
     """Reactions of a GCON are known where its FUNCTION measures."""
+
+    def function_of(id: Key) -> Node:
+        """Of a value of an ARRAY that no system has another rule speaks."""
+        found = deck.find(Variable, id)
+        return Num(0.0) if found is None else found.function
+
     for gcon in deck.of(Gcon):
-        measured = gcon.measured(lambda id: deck.get(Variable, id).function)
+        measured = gcon.measured(function_of)
         known = dict.fromkeys(key for pair in measured for key in pair)
         for field in ("i", "j"):
             key = getattr(gcon, field)

@@ -91,6 +91,8 @@ def _idle(contact: Contact) -> Iterator[tuple[str, str]]:
 
 def contact_shapes(deck: Deck) -> Iterator[Diagnostic]:
     for each in deck.of(Contact):
+        if each in deck.overfull:
+            continue  # its pairs are too many to look at
         faults = [*_not_simple(deck, each), *_parts(deck, each)]
         yield from faults or _pairs(deck, each)
 

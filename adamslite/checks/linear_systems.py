@@ -7,6 +7,7 @@ from itertools import chain
 from typing import Any
 
 from adamslite.checks.rule import Rule, needs
+from adamslite.deck.brought import MOST
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Redefinition
 from adamslite.deck.statement_diagnostics import diagnose, diagnose_inside
@@ -230,7 +231,8 @@ def determined_at_rest(deck: Deck, commands: Iterable[Statement] = ()) -> Iterat
     if not any(isinstance(run, Simulate) and run.kind == "STATICS" for run in runs):
         return
     for system in linear_systems(deck):
-        found = None if system.static_hold else system.matrices(deck)
+        looked_at = not system.static_hold and system not in deck.overfull
+        found = system.matrices(deck) if looked_at else None
         if found is None or not found.a:  # of a matrix that is not read
             continue
         n = len(found.a)
@@ -278,7 +280,14 @@ def _takes(deck: Deck, beginning: str) -> bool:
     )
 
 
+def too_much(deck: Deck) -> Iterator[Diagnostic]:
+    """Statements that would bring more others than there is room for."""
+    for each in deck.overfull:
+        yield diagnose(each, "brings-too-much", most=MOST)
+
+
 SYSTEM_RULES: list[Rule] = [
+    too_much,
     arrays_of_systems,
     partners,
     sizes_of_matrices,

@@ -12,7 +12,7 @@ from adamslite.deck.statement_diagnostics import diagnose, diagnose_inside
 from adamslite.elements.array import Array
 from adamslite.elements.bases.data_file import UnusableFile, columns
 from adamslite.elements.curve import Curve
-from adamslite.elements.matrix import Matrix
+from adamslite.elements.matrix import MOST, Matrix
 from adamslite.elements.spline import LEAST, Spline
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.expression import Call, Num, Ref, calls, fold, walk
@@ -175,6 +175,9 @@ def _elements(deck: Deck, matrix: Matrix) -> Iterator[Diagnostic]:
         yield diagnose(matrix, "missing-argument", word=missing[0].upper(), hint="")
     if count != expected and (count or not missing):
         yield diagnose(matrix, "matrix-size", "values", count=count, expected=expected)
+    elif matrix.too_large:
+        elements = matrix.rows * matrix.columns
+        yield diagnose(matrix, "matrix-too-large", "rows", elements=elements, most=MOST)
     elif matrix.misplaced:
         yield diagnose(matrix, "matrix-place", "values", place=matrix.misplaced)
 

@@ -15,6 +15,7 @@ from pathlib import Path, PureWindowsPath
 from typing import TYPE_CHECKING, Any, overload
 
 import adamslite
+from adamslite.deck.brought import brought_by
 from adamslite.deck.counted_turns import counted
 from adamslite.deck.element_switch import Switch
 from adamslite.deck.redefinition import Redefinition, settled
@@ -88,7 +89,7 @@ class Deck:
         self._of: dict[str, list[Statement]] = {}
         self._by_key: dict[tuple[str, Key], Statement] = {}
         self._enter(statements)
-        groups = [(each, each.companions(self)) for each in statements]
+        groups, self.overfull = brought_by(statements, self)
         brought = tuple(s for each, group in groups for s in (each, *group))
         self.delays: dict[Call, Key] = {}
         self.statements: tuple[Statement, ...] = brought

@@ -161,6 +161,10 @@ class Contact(Wrench, Statement):
         """Whether there is friction."""
         return self.coulomb_friction != "OFF"
 
+    def bringing(self, deck: Lookup) -> int:
+        """Points, and the three states of bristles that each may have."""
+        return 4 * len(self.igeom) * len(self.jgeom)
+
     def companions(self, deck: Lookup) -> tuple[Statement, ...]:
         """The points at which its shapes may touch, with their states."""
         points = self._points(deck.find)

@@ -75,6 +75,10 @@ class Gse(SystemElement):
             return None
         return {"x": self.ns, "y": self.no, "xd": self.nd}
 
+    def bringing(self, deck: Lookup) -> int:
+        """States and outputs."""
+        return sum(max(count, 0) for count in (self.ns, self.no, self.nd))
+
     def equations(self, deck: Lookup) -> Iterator[tuple[str, Iterator[Node]]]:
         """What the routine returns; discrete states do not change."""
         yield "x", iter(self.returned[: self.ns])

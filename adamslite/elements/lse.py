@@ -22,7 +22,12 @@ from adamslite.elements.bases.system_element import (
 from adamslite.language.statement import reference, statement
 
 if TYPE_CHECKING:
+    from adamslite.elements.matrix import Matrix
     from adamslite.language.interfaces import Key, Lookup
+
+
+#: Elements that take as long to look at as a state takes to make.
+LOOKED_AT = 100
 
 
 @statement("LSE")
@@ -48,9 +53,33 @@ class Lse(LinearSystem):
         """Ids of the matrices that are given, by field."""
         return {field: key for field in "abcd" if (key := getattr(self, field)) is not None}
 
-    def matrices(self, deck: Lookup) -> Matrices | None:
-        """The rows of A to D; None where one of them has mistakes of its own."""
+    def bringing(self, deck: Lookup) -> int:
+        """States and outputs, and of elements that are looked at some for each."""
+        found = self._complete(deck) or {}
+        sizes = ((each.rows, each.columns) for each in found.values())
+        return sum(rows + rows * columns // LOOKED_AT for rows, columns in sizes)
+
+    def counts(self, deck: Lookup) -> dict[str, int] | None:
+        """Rows of A or B, and of C or D, without making them."""
+        found = self._complete(deck)
+        if found is None:
+            return None
+        rows = {field: each.rows for field, each in found.items()}
+        return {
+            "x": max(rows.get("a", 0), rows.get("b", 0)),
+            "y": max(rows.get("c", 0), rows.get("d", 0)),
+        }
+
+    def _complete(self, deck: Lookup) -> dict[str, Matrix] | None:
+        """The matrices; None where one of them has mistakes of its own."""
         found = {field: deck.find("MATRIX", key) for field, key in self.named.items()}
         if any(each is None or not each.complete for each in found.values()):
+            return None
+        return found
+
+    def matrices(self, deck: Lookup) -> Matrices | None:
+        """The rows of A to D; None where one of them has mistakes of its own."""
+        found = self._complete(deck)
+        if found is None:
             return None
         return Matrices(*(found[field].table if field in found else () for field in "abcd"))

@@ -16,6 +16,8 @@ from adamslite.elements.bases import data_file
 from adamslite.language.statement import Statement, choice, flag, integer, statement, text, vector
 
 TRIPLE = 3
+#: Elements of a SPARSE matrix, zeros included: as many as VALUES can give.
+MOST = 10**6
 
 
 @statement("MATRIX", planned=("NAME",), data=True)
@@ -31,7 +33,7 @@ class Matrix(Statement):
     rows: int = integer("ROWS", default=0, help="number of rows; may be left out with FILE")
     columns: int = integer("COLUMNS", default=0, help="number of columns, the same")
     values: tuple[float, ...] = vector(
-        "VALUES", size=1, most=10**6, default=(), unit="the user's", help="the elements"
+        "VALUES", size=1, most=MOST, default=(), unit="the user's", help="the elements"
     )
     file: str | None = text("FILE", help="a table .csv in the folder of the deck or below")
 
@@ -51,6 +53,11 @@ class Matrix(Statement):
         }
         given = {name: each for name, each in vars(self).items() if name in self.field_names}
         return Matrix(**{**given, **read})
+
+    @property
+    def too_large(self) -> bool:
+        """Whether a SPARSE matrix has more elements than are worked with."""
+        return self.sparse and self.rows > 0 < self.columns and self.rows * self.columns > MOST
 
     @property
     def misplaced(self) -> str:
@@ -77,7 +84,7 @@ class Matrix(Statement):
     @property
     def complete(self) -> bool:
         """Whether there is a number for every element."""
-        sizes = self.rows > 0 < self.columns
+        sizes = self.rows > 0 < self.columns and not self.too_large
         return sizes and 0 < len(self.values) == self.expected and not self.misplaced
 
     @property

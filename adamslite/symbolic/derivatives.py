@@ -21,25 +21,40 @@ from adamslite.symbolic.graph import ONE, TRUE, ZERO, Given, Node, add, choice, 
 from adamslite.symbolic.slopes import slopes
 from adamslite.symbolic.structure import ordered
 
-NONE: frozenset[Node] = frozenset()
-
 
 class Derivatives:
     """Differentiates expressions that share parts; ``constant``: by which symbols never."""
 
     def __init__(self, constant: Callable[[Node], bool] = lambda symbol: False) -> None:
         self.constant = constant
-        self._symbols: dict[Node, frozenset[Node]] = {}
+        self._numbers: dict[Node, int] = {}
+        self._masks: dict[Node, int] = {}
+        self._sets: dict[int, frozenset[Node]] = {0: frozenset()}
         self._varies: dict[Node, bool] = {}
         self._gradients: dict[Node, dict[Node, Node]] = {}
 
     def symbols(self, expr: Given) -> frozenset[Node]:
-        """The symbols in an expression."""
-        expr, known = node(expr), self._symbols
+        """The symbols in an expression.
+
+        Those of a node are bits of a whole number: a sum of n terms is n sums, and a set for each
+        of them would take a hundred times the memory.
+        """
+        expr, known = node(expr), self._masks
         for top in _new(expr, known):
-            own = frozenset((top,)) if top.kind == "symbol" else NONE
-            known[top] = own.union(*[known[each] for each in top.args])
-        return known[expr]
+            own = self._bit(top) if top.kind == "symbol" else 0
+            for each in top.args:
+                own |= known[each]
+            known[top] = own
+        mask = known[expr]
+        if mask not in self._sets:
+            bits = reversed(f"{mask:b}")
+            pairs = zip(self._numbers, bits, strict=False)
+            self._sets[mask] = frozenset(symbol for symbol, bit in pairs if bit == "1")
+        return self._sets[mask]
+
+    def _bit(self, symbol: Node) -> int:
+        """The bit of a symbol: symbols are numbered as they come."""
+        return 1 << self._numbers.setdefault(symbol, len(self._numbers))
 
     def varies(self, expr: Node) -> bool:
         """Whether an expression has symbols that are no constants."""

@@ -77,6 +77,11 @@ CONSTRAINTS: dict[str, Message] = {
             "MATRIX/1, SPARSE, ROWS=2, COLUMNS=3, VALUES=0,1,4",
         ),
     ),
+    "matrix-too-large": Message(
+        "{label} has {elements} elements, and at most {most} are worked with",
+        "zeros count; split the system into several",
+        ("MATRIX/1, SPARSE, ROWS=1001, COLUMNS=1000, VALUES=1,1,4",),
+    ),
     "matrix-sources": Message(
         "{label} has its elements twice: {word} excludes another argument",
         "give VALUES by FULL or by SPARSE, or FILE",

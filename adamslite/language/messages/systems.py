@@ -23,6 +23,14 @@ _STRUCTURE = (
     "NFORCE/1, IMARKERS=2, J=1"
 )
 SYSTEMS: dict[str, Message] = {
+    "brings-too-much": Message(
+        "{label} makes too many states, outputs or points of contact: a deck has room for {most}",
+        "they are NS, NO and ND of a GSE, rows of an LSE, IGEOM times JGEOM of a CONTACT",
+        (
+            "ARRAY/1, X\nARRAY/2, Y\nMATRIX/1, ROWS=1, COLUMNS=1, VALUES=-1\n"
+            "MATRIX/2, SPARSE, ROWS=1000000, COLUMNS=1, VALUES=1,1,1\nLSE/1, X=1, Y=2, A=1, C=2",
+        ),
+    ),
     "array-kind": Message(
         "{word} of {label} must be an ARRAY {needed}, and {array} is an ARRAY {kind}",
         "X are states, U inputs, Y outputs, IC numbers",
