@@ -34,6 +34,8 @@ SAME, ROUND_OFF = 1e-13, 1e-16
 LOUD = 1e-9
 # So many whole numbers floors may pass in a run: their changes have to fit into memory.
 MOST = 2**19
+# Times whose branches are found at once: what is needed on the way takes little memory.
+BLOCK = 2**15
 # Where a guard is sampled between two changes.
 WITHIN = np.array([0.25, 0.5, 0.75])
 
@@ -159,8 +161,12 @@ def _branches(system: System, times: np.ndarray) -> np.ndarray:
 def _branch(system: System, values: np.ndarray) -> np.ndarray:
     """Branch of every guard of the clock by its values, (nt, guards)."""
     kind = system.numbering.kind[: values.shape[1]]
-    relation = np.where(kind == STRICT, values > 0.0, values >= 0.0).astype(float)
-    return np.where(kind == FLOOR, np.floor(values), relation)
+    found = np.empty_like(values)
+    for at in range(0, len(values), BLOCK):
+        here = values[at : at + BLOCK]
+        relation = np.where(kind == STRICT, here > 0.0, here >= 0.0)
+        found[at : at + BLOCK] = np.where(kind == FLOOR, np.floor(here), relation)
+    return found
 
 
 def sample(system: System, times: np.ndarray) -> np.ndarray:
