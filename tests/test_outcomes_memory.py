@@ -151,6 +151,7 @@ def test_the_limit_holds_while_a_run_lasts_and_no_longer() -> None:
 
 
 @LINUX
+@pytest.mark.slow  # compiles the engine of a new process
 def test_a_compiler_without_memory_ends_by_name(tmp_path: Path) -> None:
     """LLVM ends the process where it gets no memory: it is not asked to begin."""
     deck = tmp_path / "point.adm"
