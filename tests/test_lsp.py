@@ -231,7 +231,11 @@ def test_the_page_of_a_message_in_a_comment() -> None:
     assert found and found[0].startswith("## `no-inertia`")
 
 
-@pytest.mark.parametrize("sent", [b"[" * 200_000, b"{", b"\xff\xfe", b'{"jsonrpc": 7}'])
+@pytest.mark.parametrize(
+    "sent",
+    [b"[" * 200_000, b"{", b"\xff\xfe", b'{"jsonrpc": 7}'],
+    ids=["deep", "open", "no text", "no version"],  # else a name is a variable of 200 kB
+)
 def test_what_is_no_message_is_reported_without_a_traceback(sent: bytes) -> None:
     done = subprocess.run(
         [sys.executable, "-m", "adamslite", "lsp"], capture_output=True, check=False,
