@@ -9,6 +9,11 @@ from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command
 from adamslite.language.diagnostics import SEVERITIES, Diagnostic, numbers_of
 
+MOST_NAMED = 200
+"""Redundant rows that are named."""
+MOST_SURPLUS = 2000
+"""Constraint rows beyond the number of coordinates with which degrees of freedom are counted."""
+
 
 def contents(deck: Deck, commands: Sequence[Command]) -> list[str]:
     """Lines about a deck; of its cables also how they would be modelled."""
@@ -42,14 +47,32 @@ def _freedom(deck: Deck) -> list[str]:
     points = len(deck.of(PointMass))
     constraints = [each for each in deck.statements if isinstance(each, Constraint)]
     held = sum(each.n_rows for each in constraints if deck.is_active(each))
-    found: list[str] = []
-    if held:
-        from adamslite.assembly.start import redundant_rows
-
-        found = redundant_rows(deck)
-    free = 6 * parts + 3 * points - held + len(found)
-    freedom = (
-        f"{many(free, 'degree')} of freedom: {many(parts, 'moving part')}, "
-        f"{many(points, 'point mass', 'point masses')}, {many(held, 'constraint row')}"
+    consisting = (
+        f"{many(parts, 'moving part')}, {many(points, 'point mass', 'point masses')}, "
+        f"{many(held, 'constraint row')}"
     )
-    return [freedom, *([f"redundant, left out: {'; '.join(found)}"] if found else [])]
+    found = _redundant(deck, held - 6 * parts - 3 * points) if held else []
+    if found is None:
+        return [f"{consisting}: too many of them are redundant to count degrees of freedom"]
+    free = 6 * parts + 3 * points - held + len(found)
+    freedom = f"{many(free, 'degree')} of freedom: {consisting}"
+    if not found:
+        return [freedom]
+    named = "; ".join(found[:MOST_NAMED])
+    further = f"; and {len(found) - MOST_NAMED} more" if len(found) > MOST_NAMED else ""
+    return [freedom, f"redundant, left out: {named}{further}"]
+
+
+def _redundant(deck: Deck, surplus: int) -> list[str] | None:
+    """Names of redundant rows; None where there are more than are looked for, as where ``surplus``,
+    rows beyond the number of coordinates, is large.
+    """
+    if surplus > MOST_SURPLUS:
+        return None
+    from adamslite.assembly.rank import TooManyDependent
+    from adamslite.assembly.start import redundant_rows
+
+    try:
+        return redundant_rows(deck)
+    except TooManyDependent:
+        return None

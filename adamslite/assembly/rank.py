@@ -31,6 +31,12 @@ MOST_DENSE = 800
 # What is added to the diagonal of G G^T, vectors at first, and iterations: singular values above
 # 1e-5 lose nine digits in two.
 SHARED, VECTORS, ITERATIONS = 1e-14, 16, 6
+# Products of one iteration that makes vectors orthogonal; more take some seconds.
+MOST_PRODUCTS = 1e9
+
+
+class TooManyDependent(Exception):
+    """More rows are combinations of others than are looked for."""
 
 
 def unit_rows(g: np.ndarray) -> np.ndarray:
@@ -74,11 +80,20 @@ def _orthogonalised(rows: np.ndarray) -> list[int]:
 
 
 def dependent_of_many(rows: csr_array) -> list[int]:
-    """The same for a sparse matrix, whose rows may have any length."""
+    """The same for a sparse matrix, whose rows may have any length.
+
+    Raises
+    ------
+    TooManyDependent
+    """
     length = np.sqrt(rows.multiply(rows).sum(axis=1))
     if not np.isfinite(length).all():
         return []
     unit = rows.multiply(1.0 / np.where(length > 0.0, length, 1.0)[:, None]).tocsr()
+    columns = np.unique(unit.indices)
+    if len(columns) <= MOST_ORTHOGONALISED:  # few steps, whatever the number of rows
+        return _orthogonalised(unit[:, columns].toarray())
+    _require_few(len(length), len(length) - len(columns))
     return rows_carried(_vanishing(unit).T)
 
 
@@ -101,6 +116,7 @@ def _vanishing(unit: csr_array) -> np.ndarray:
     factors = splu((unit @ unit.T + SHARED * eye_array(m)).tocsc())
     count = VECTORS
     while True:
+        _require_few(m, count)
         y = np.random.default_rng(0).normal(size=(m, min(count, m)))
         for _ in range(ITERATIONS):
             y, _ = np.linalg.qr(factors.solve(y))
@@ -108,6 +124,12 @@ def _vanishing(unit: csr_array) -> np.ndarray:
         if sizes[0] > RANK or count >= m:
             return y @ mix[sizes <= RANK].T
         count *= 2
+
+
+def _require_few(rows: int, count: int) -> None:
+    """Raise what is raised where so many of the rows, or nearly, are combinations of others."""
+    if count > 0 and rows * min(count, rows) ** 2 > MOST_PRODUCTS:
+        raise TooManyDependent
 
 
 def solved(rows: csr_array, g: np.ndarray) -> np.ndarray:
@@ -120,12 +142,10 @@ def solved(rows: csr_array, g: np.ndarray) -> np.ndarray:
     return splu((square + added * eye_array(len(g))).tocsc()).solve(g)
 
 
-def name_of_row(constraints: Iterable[Constraint], row: int) -> str:
-    """``JOINT/3, rotation about y_J (z_I . x_J)``: the constraint and what the row keeps at
-    zero.
+def names_of_rows(constraints: Iterable[Constraint], rows: Iterable[int]) -> list[str]:
+    """``JOINT/3, rotation about y_J (z_I . x_J)``: the constraint of each row, and what the row
+    keeps at zero; the rows in rising order.
     """
-    for constraint in constraints:
-        if row < constraint.n_rows:
-            return f"{constraint.label}, {constraint.row_names[row]}"
-        row -= constraint.n_rows
-    raise IndexError("no constraint has this row")
+    names = (f"{each.label}, {name}" for each in constraints for name in each.row_names)
+    wanted = set(rows)
+    return [name for row, name in enumerate(names) if row in wanted]

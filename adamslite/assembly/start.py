@@ -12,7 +12,7 @@ from adamslite.assembly.rank import (
     RANK,
     dependent_of_many,
     dependent_rows,
-    name_of_row,
+    names_of_rows,
     unit_rows,
 )
 from adamslite.assembly.rows import gradient, sparse_gradient
@@ -46,7 +46,13 @@ def closing_of(deck: Deck) -> tuple[Model, Closing]:
 
 
 def redundant_rows(deck: Deck) -> list[str]:
-    """Names of the constraint rows that follow from the others at the start."""
+    """Names of the constraint rows that follow from the others at the start.
+
+    Raises
+    ------
+    TooManyDependent
+        When more of thousands of rows do so than are looked for.
+    """
     if not has_loops(deck):
         return []
     started, closing = closing_of(deck)
@@ -57,11 +63,11 @@ def redundant_rows(deck: Deck) -> list[str]:
         if sum(each.n_rows for each in model.constraints) > MOST_DENSE:
             rows = sparse_gradient(model, posture, model.constraints)
             dropped = dependent_of_many(rows.multiply(1.0 / weights[None, :]).tocsr())
-            return [name_of_row(model.constraints, row) for row in dropped]
+            return names_of_rows(model.constraints, dropped)
         scaled = unit_rows(gradient(model, posture, model.constraints) / weights)
     if not np.isfinite(scaled).all():
         return []
-    return [name_of_row(model.constraints, row) for row in dependent_rows(scaled)]
+    return names_of_rows(model.constraints, dependent_rows(scaled))
 
 
 def has_loops(deck: Deck) -> bool:

@@ -49,8 +49,11 @@ def other_rows_left_out(system: System) -> bool:
     if not dropped:
         return False
     # Few models have redundant rows.
-    from adamslite.assembly.rank import name_of_row
+    from adamslite.assembly.rank import TooManyDependent, names_of_rows
     from adamslite.assembly.start import redundant_rows
 
-    own = {name_of_row(system.model.constraints, row) for row in dropped}
-    return own != set(redundant_rows(system.model.deck))
+    own = {*names_of_rows(system.model.constraints, dropped)}
+    try:
+        return own != set(redundant_rows(system.model.deck))
+    except TooManyDependent:
+        return True

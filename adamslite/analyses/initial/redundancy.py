@@ -12,7 +12,7 @@ import numpy as np
 from adamslite.analyses.initial.least_change import MOST_DENSE, VELOCITIES
 from adamslite.analyses.initial.rows import constraint_gradient, weights
 from adamslite.analyses.initial.sparse_rows import LeastChanges, evaluated, pattern_of
-from adamslite.assembly.rank import dependent_rows, name_of_row, unit_rows
+from adamslite.assembly.rank import dependent_rows, names_of_rows, unit_rows
 
 if TYPE_CHECKING:
     from adamslite.equations.system import System
@@ -75,4 +75,4 @@ def leave_out_redundant(system: System) -> list[str]:
 
 def row_name(system: System, row: int) -> str:
     """The constraint and what the row keeps at zero."""
-    return name_of_row(system.model.constraints, row)
+    return names_of_rows(system.model.constraints, [row])[0]
