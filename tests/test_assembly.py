@@ -8,15 +8,18 @@ import numpy as np
 import pytest
 from constraint_decks import BODIES, DECKS, deck
 from decklets import told
+from scipy.sparse import csr_array
 from tiers import fast
 
 import adamslite as al
 from adamslite.analyses.initial.redundancy import row_name
 from adamslite.analyses.initial.rows import constraint_gradient
 from adamslite.analyses.session.session import Session
+from adamslite.api.contents import _freedom
 from adamslite.assembly.closing import close, moved
 from adamslite.assembly.rank import (
     MOST_ORTHOGONALISED,
+    TooManyDependent,
     dependent_of_many,
     dependent_rows,
     unit_rows,
@@ -131,6 +134,36 @@ def test_a_loop_of_a_hundred_and_sixty_links() -> None:
     of = al.read("\n".join(lines))
     assert closing_of(of)[1].closed
     assert len(redundant_rows(of)) == 3
+
+
+def fixed_again_and_again(count: int) -> str:
+    """A part that is fixed to the ground by so many joints between the same two markers."""
+    joints = "".join(f"JOINT/{k}, FIXED, I=2, J=1\n" for k in range(1, count + 1))
+    bodies = "MARKER/1, PART=1\nPART/2, MASS=1, CM=2, IP=1,1,1\nMARKER/2, PART=2\n"
+    return f"again and again\nPART/1, GROUND\n{bodies}{joints}END\n"
+
+
+def test_of_many_rows_of_few_coordinates_all_but_as_many_are_left_out() -> None:
+    left_out = redundant_rows(al.read(fixed_again_and_again(200)))
+    assert len(left_out) == 6 * 199 and len({*left_out}) == len(left_out)
+
+
+def test_freedoms_are_not_counted_where_thousands_of_rows_are_redundant(monkeypatch) -> None:
+    monkeypatch.setattr("adamslite.api.contents.MOST_NAMED", 3)
+    freedom, named = _freedom(al.read(fixed_again_and_again(3)))
+    assert freedom.startswith("0 degrees of freedom") and named.endswith("; and 9 more")
+    assert named.count(";") == 3
+    monkeypatch.setattr("adamslite.api.contents.MOST_SURPLUS", 11)
+    (only,) = _freedom(al.read(fixed_again_and_again(3)))
+    assert only.endswith("18 constraint rows: too many of them are redundant to count degrees of "
+                         "freedom")  # fmt: skip
+
+
+def test_more_dependent_rows_than_can_be_found_are_refused(monkeypatch) -> None:
+    monkeypatch.setattr("adamslite.assembly.rank.MOST_PRODUCTS", 1e5)
+    rows = csr_array(np.tile(np.random.default_rng(1).normal(size=(150, 160)), (3, 1)))
+    with pytest.raises(TooManyDependent):
+        dependent_of_many(rows)
 
 
 def test_a_tree_has_no_loops() -> None:

@@ -52,6 +52,7 @@ from adamslite.checks.requests import REQUEST_RULES
 from adamslite.checks.rule import Rule, apply
 from adamslite.checks.runs import RUN_RULES, file_names
 from adamslite.checks.shapes import shapes
+from adamslite.checks.sizes import expressions_too_large
 from adamslite.checks.tables import TABLE_RULES
 from adamslite.deck.deck import Deck
 from adamslite.deck.named_places import with_named
@@ -128,6 +129,7 @@ ADVICE: list[Rule] = [
     facing_markers,
     effective_masses,
     unformed_equations,
+    expressions_too_large,
     *ASSEMBLY_RULES,
     *LINT_RULES,
     *DIMENSION_RULES,

@@ -54,7 +54,12 @@ LASTING = ("MARKER", "VARIABLE", "DIFF", "SENSOR")
 
 
 class ForceLoop(Exception):
-    """An element's force depends on itself without a VARIABLE between."""
+    """An element's force depends on itself without a VARIABLE between.
+
+    ``number``: of the statement in a bundle.
+    """
+
+    number = 0
 
 
 class Binder:

@@ -16,7 +16,7 @@ from adamslite.elements.bases.constraint import Constraint
 from adamslite.gc_pause import without_collection
 from adamslite.kernels.binding import Binder, ForceLoop
 from adamslite.kernels.bundles import bundles
-from adamslite.kernels.columns import Split, TooLarge, same, transposed
+from adamslite.kernels.columns import MOST_IN_ALL, Split, TooLarge, same, transposed
 from adamslite.kernels.face_writer import FaceWriter
 from adamslite.kernels.faces import faces, output_face
 from adamslite.kernels.groups import (
@@ -39,8 +39,6 @@ from adamslite.symbolic.types import Tree
 if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
 
-MOST_IN_ALL = 1_000_000
-"""Operations of all shapes of a deck."""
 MOST_NAMED = 5
 
 Numbered = tuple[int, Writing]
@@ -61,6 +59,12 @@ def bound(model: Model, audited: bool) -> tuple[Groups, list[tuple[Statement, tu
         for (_, face), found in batches.items():
             add(groups, model, face, found)
     return groups, [(each, each.result_names) for each in _writing(model)]
+
+
+def refused(model: Model) -> Diagnostic | None:
+    """What is wrong with the first statement that depends on itself or is too large."""
+    loops = bound(model, audited=False)[0].loops
+    return loops[min(loops)] if loops else None
 
 
 def _contributing(model: Model, audited: bool) -> Iterator[tuple[Writing, str]]:
@@ -190,7 +194,8 @@ def add(groups: Groups, model: Model, face: str, statements: list[Numbered]) -> 
         except (ForceLoop, TooLarge) as fault:
             number, statement = part[0]
             if isinstance(statement, Bundle) and groups.size <= MOST_IN_ALL:
-                pending += [part[1:], *([(number, half)] for half in reversed(statement.halves()))]
+                before, behind = statement.parted(fault.number)
+                pending += [part[1:], [(number, behind)], [(number, before)]]
                 continue
             groups.loops[number] = _refused(members_of(statement)[0], fault)
             if isinstance(fault, TooLarge):
@@ -228,7 +233,7 @@ def _bind(groups: Groups, model: Model, face: str, numbered: list[Numbered]) -> 
 def _faced(binder: Binder, members: list[tuple[Statement, ...]], face: str) -> tuple[Tree, int]:
     """What a face is made of, and the slot of its own unknowns."""
     if face == "output":
-        return tuple([_written(binder, column) for column in transposed(members)]), -1
+        return tuple(_results(binder, members)), -1
     statements = [each[0] for each in members]
     if face == "counted":
         found = transposed([counted(each) for each in statements])
@@ -239,6 +244,16 @@ def _faced(binder: Binder, members: list[tuple[Statement, ...]], face: str) -> t
     if face in ("signal", "stored", "sensor"):
         return fields, binder.node_slot([(face.upper(), each.key) for each in statements])
     return fields, binder.unknowns(statements)
+
+
+def _results(binder: Binder, members: list[tuple[Statement, ...]]) -> Iterator[tuple[int, Tree]]:
+    """What each member writes; what is wrong with one of them knows its number."""
+    for number, column in enumerate(transposed(members)):
+        try:
+            yield _written(binder, column)
+        except (ForceLoop, TooLarge) as fault:
+            fault.number = number
+            raise
 
 
 def _written(binder: Binder, statements: list[Statement]) -> tuple[int, Tree]:

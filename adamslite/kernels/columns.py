@@ -19,12 +19,16 @@ LARGEST = 20_000
 """Operations of one statement with all that is written out in it; compiling more than that takes
 half a minute and gigabytes.
 """
+MOST_IN_ALL = 1_000_000
+"""Operations of all shapes of a deck."""
 
 
 class TooLarge(Exception):
     """Expressions of more than ``most`` operations; ``variables``: ids of VARIABLEs that are
-    written out in the first of them.
+    written out in the first of them; ``number``: of the statement in a bundle.
     """
+
+    number = 0
 
     def __init__(self, most: int, variables: Sequence[int | str]) -> None:
         super().__init__(most)

@@ -58,10 +58,10 @@ class Bundle:
 
     members: tuple[Statement, ...]
 
-    def halves(self) -> tuple[Writing, Writing]:
-        """Two with half of the members each."""
-        middle = len(self.members) // 2
-        return _together(self.members[:middle]), _together(self.members[middle:])
+    def parted(self, number: int) -> tuple[Writing, Writing]:
+        """The members before that of a number, at least one, and the others."""
+        at = max(number, 1)
+        return _together(self.members[:at]), _together(self.members[at:])
 
 
 Writing: TypeAlias = "Statement | Bundle"

@@ -6,8 +6,11 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Container, Iterable
+    from typing import TypeVar
 
     from adamslite.language.interfaces import Key
+
+    K = TypeVar("K")
 
 
 def in_loops(uses: dict[Key, set[Key]]) -> set[Key]:
@@ -39,13 +42,13 @@ def in_loops(uses: dict[Key, set[Key]]) -> set[Key]:
 
 
 def behind_others(
-    keys: Iterable[Key], used: Callable[[Key], Iterable[Key]], known: Container[Key] = ()
-) -> list[Key]:
+    keys: Iterable[K], used: Callable[[K], Iterable[K]], known: Container[K] = ()
+) -> list[K]:
     """Keys, and all that they are made of but for what is ``known``, each behind what it uses; of
     a cycle, where a search in depth leaves it.
     """
-    found: list[Key] = []
-    entered: set[Key] = set()
+    found: list[K] = []
+    entered: set[K] = set()
     pending = [(key, False) for key in keys][::-1]
     while pending:
         key, complete = pending.pop()
