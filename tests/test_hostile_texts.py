@@ -381,21 +381,6 @@ def test_all_expressions_of_a_deck_have_a_largest_size(monkeypatch):
     assert only.code == "deck-too-large" and "60 operations" in only.message
 
 
-def test_check_reports_expressions_that_are_too_large_when_they_are_written_out(monkeypatch):
-    """As does compiling; a deck that only looks large is bound, and nothing is reported."""
-    for module in ("kernels.columns", "kernels.binding", "checks.sizes"):
-        monkeypatch.setattr(f"adamslite.{module}.LARGEST", 40)
-    chain = "VARIABLE/1, FUNCTION=DM(3,4)\n" + "".join(
-        f"VARIABLE/{n + 1}, FUNCTION=VARVAL({n})*VARVAL({n})+1\n" for n in range(1, 9)
-    )
-    text = f"{BODIES}{POINT}{chain}{FORCE}VARVAL(9)\n"
-    found = [each for each in al.check(al.read(text)) if each.severity == "error"]
-    assert [each.message for each in found] == [refused(f"{chain}{FORCE}VARVAL(9)").message]
-    small = text.replace("VARVAL(9)", "VARVAL(1)").replace("*VARVAL", "*DM(3,4)+0*VARVAL(1)*TIME")
-    assert not [each for each in al.check(al.read(small[: small.index("VARIABLE/4")] + FORCE + "1"))
-                if each.severity == "error"]  # fmt: skip
-
-
 def test_a_chain_of_doubled_variables_grows_as_its_length():
     """Written out as a text V40 has 4**40 words."""
     chain = "VARIABLE/1, FUNCTION=DM(3,4)\n" + "".join(
