@@ -146,6 +146,6 @@ def names_of_rows(constraints: Iterable[Constraint], rows: Iterable[int]) -> lis
     """``JOINT/3, rotation about y_J (z_I . x_J)``: the constraint of each row, and what the row
     keeps at zero; the rows in rising order.
     """
-    names = (f"{each.label}, {name}" for each in constraints for name in each.row_names)
+    names = (f"{c.label}, {name}" for c in constraints for name in c.row_names[: c.n_rows])
     wanted = set(rows)
     return [name for row, name in enumerate(names) if row in wanted]
