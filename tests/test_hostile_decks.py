@@ -15,6 +15,7 @@ from decklets import told
 from scenes import SPRING
 
 import adamslite as al
+from adamslite.cables.description.toml_places import MOST_OPENED, excess_of
 from adamslite.language.file_name import OPENED, inside
 
 UNIX = pytest.mark.skipif(os.name == "nt", reason="links and pipes of Unix")
@@ -329,6 +330,17 @@ def test_a_description_of_others_ends_in_a_sentence(case: str) -> None:
     with pytest.raises(al.DeckError) as told_of:
         al.cable(text)
     assert obeyed(str(told_of.value)) == []
+
+
+@pytest.mark.parametrize("line", ["[[cable]]", "[t{}]", "  [a.b{}.c]", "\t[1, {}],"])
+def test_a_description_opens_a_largest_number_of_tables(line: str) -> None:
+    """Those that are one too many are not given to the parser, whatever else is wrong with them."""
+    lines = [line.format(n) for n in range(MOST_OPENED + 1)]
+    assert "more than 10000 lines that begin with a bracket" in excess_of("\n".join(lines))
+    assert not excess_of("\n".join([*lines[1:], "a = [1]", "# ["]))
+    with pytest.raises(al.DeckError) as told_of:
+        al.cable("\n".join(lines))
+    assert "begin with a bracket" in str(told_of.value)
 
 
 @pytest.mark.parametrize("case", DESCRIPTIONS)

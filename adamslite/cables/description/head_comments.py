@@ -100,11 +100,11 @@ def _model(text: str) -> Model | None:
     import tomllib
 
     from adamslite.cables.description.keys import FORMS
-    from adamslite.cables.description.toml_places import has_long_key
+    from adamslite.cables.description.toml_places import excess_of
     from adamslite.cables.description.vocabulary import MOST_SECTIONS
 
     try:
-        shown: dict[str, Any] = {} if has_long_key(text) else tomllib.loads(text)
+        shown: dict[str, Any] = {} if excess_of(text) else tomllib.loads(text)
     except (ValueError, RecursionError):
         return None
     kinds = (int, str, int, str, float, bool, list)

@@ -25,7 +25,7 @@ from adamslite.cables.description.keys import (
 from adamslite.cables.description.messages import LARGEST, SMALLEST, Faults, quoted
 from adamslite.cables.description.reeving import along_several, along_the_cable
 from adamslite.cables.description.route import check_route
-from adamslite.cables.description.toml_places import Path, Places, has_long_key
+from adamslite.cables.description.toml_places import Path, Places, excess_of
 from adamslite.cables.description.vocabulary import Spec, Station, Toml
 from adamslite.language.diagnostics import DeckError, Source, sort_by_place
 
@@ -89,8 +89,8 @@ def read_scene(text: str, file: str = "<text>") -> Description:
 
 
 def _parsed(text: str, places: Places, faults: Faults) -> Toml:
-    if has_long_key(text):
-        faults.add("toml", (), why="a key of more than 50 parts")
+    if why := excess_of(text):
+        faults.add("toml", (), why=why)
         raise DeckError(faults.found)
     try:
         return tomllib.loads(text)

@@ -9,10 +9,25 @@ Path = tuple[str | int, ...]
 #: A key of fifty parts: reading one takes a time that grows with the square of their number.
 LONG = re.compile(r"""(?<![\w."'-])(?:(?:"[^"\n]*+"|'[^'\n]*+'|[\w-]++)[ \t]*+\.[ \t]*+){50}""")
 
+OPENED = re.compile(r"^[ \t]*\[", re.MULTILINE)
+MOST_OPENED = 10_000
+"""Lines that open a table or a row of a list."""
+
 
 def has_long_key(text: str) -> bool:
     """Whether a key has more parts than any description needs."""
     return bool(LONG.search(text))
+
+
+def excess_of(text: str) -> str:
+    """What a text has more of than any description needs; empty where there is nothing.
+
+    Tables take tomllib some ten times as long as other lines, and much memory.
+    """
+    if has_long_key(text):
+        return "a key of more than 50 parts"
+    many = any(number == MOST_OPENED for number, _ in enumerate(OPENED.finditer(text)))
+    return f"more than {MOST_OPENED} lines that begin with a bracket" if many else ""
 
 
 class Places:
