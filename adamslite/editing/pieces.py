@@ -124,6 +124,8 @@ def _text(token: Lexeme, after: str, expression: bool, capitals: bool) -> str:
         return OPERATORS[kind]
     if kind != "NAME":
         return text
+    if not text.isascii():  # no word of the language; Latin-1 has no capital of ÿ
+        return text
     upper = text.upper()
     called = expression and after in CLOSES and upper in FUNCTIONS
     return upper if capitals or called or (expression and upper in RESERVED) else text
