@@ -112,14 +112,22 @@ class Budget(Record):
     """What a run may spend, and how it stands.
 
     ``most``: accepted steps after which it ends (0: no matter how many); ``short``: a step below
-    this is no progress [time]; ``crept``: accepted steps in a row that were none; ``seen t``: how
-    many steps were looked at, and where the last of them ended; ``events failures rejected``:
-    counts when the first of those in a row was taken.
+    this is no progress [time]; ``crept``: by how many the latest steps are more than steps of that
+    length in the time that they took; ``patience``: as many are no reason to end it; ``halved
+    covered longest growing``: of those that were no progress the latest, the time that they took,
+    the longest mean step of half as many as the patience, whether it was that of the last ones;
+    ``seen t``: how many steps were looked at, and where the last of them ended; ``events failures
+    rejected``: counts when the first of those that are too many was taken.
     """
 
     most: int
     short: float
-    crept: int
+    crept: float
+    patience: int
+    halved: int
+    covered: float
+    longest: float
+    growing: bool
     seen: int
     t: float
     events: int

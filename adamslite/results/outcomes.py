@@ -73,11 +73,13 @@ class Outcome(Enum):
         "VALUE of such sensors further apart."
     )
     CREEPING = (
-        "The run creeps: ten thousand steps in a row were each shorter than 1e-10 of the analysis, "
-        "which at this rate would never end. Take what keeps the steps short out of the scene (a "
-        "vibration far too fast: a stiffness too large or a mass too small; an expression of TIME "
-        "that changes too often; a branch that changes to and fro), allow a larger ERROR, or give "
-        "an earlier END. With --max-steps N it goes on for so many steps, however short."
+        "The run creeps: ten thousand steps or more were shorter than 1e-10 of the analysis, with "
+        "hardly one between them that was not, and became no longer, which at this rate would never end. Take what keeps the "
+        "steps short out of the scene (a vibration far too fast: a stiffness too large or a mass "
+        "too small; an expression of TIME that changes too often; a branch that changes to and "
+        "fro), use another integrator (`adamslite chart` compares them; an explicit one keeps to "
+        "steps that are stable), allow a larger ERROR, or give an earlier END. With --max-steps N "
+        "it goes on for so many steps, however short."
     )
     STEP_LIMIT = (
         "The run has taken as many steps as --max-steps allows; everything computed until then is "

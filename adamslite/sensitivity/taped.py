@@ -150,7 +150,7 @@ class Taped(Session):
         while True:
             make_ready(system, times, apart, settings)
             lay_tape(system, rows, settings.method)
-            self.budget.crept = 0  # it may begin again
+            self.budget.crept.clear()  # it may begin again
             outcome = integrate(system, settings, self.whole, budget=self.budget)
             system.audit.on = False
             if not system.tape.full:

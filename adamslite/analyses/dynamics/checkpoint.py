@@ -126,7 +126,7 @@ def restore(system: System, arrays: Mapping[str, np.ndarray], path: Path) -> Non
         if kept is None or kept.size != own.size or kept.dtype != own.dtype:
             raise FormatError(DAMAGED.format(path=path, why=ELSEWHERE))
         own[:] = kept
-    budget.most, budget.short, budget.crept = most, short, int(budget.crept) if short else 0
+    budget.most, budget.short, budget.crept = most, short, float(budget.crept) if short else 0.0
     problem.settings.stop = problem.block.hold = False
 
 

@@ -220,7 +220,7 @@ class Session(SessionState):
         outcome = self._integrated(self.system, times, apart, wanted)
         if beginning is None or outcome not in (*STALLED, Outcome.CREEPING):
             return outcome
-        self.budget.crept = 0
+        self.budget.crept.clear()
         beginning.return_to()
         self.history.return_to(self.before)
         del self.balances[drawn_up:]

@@ -10,7 +10,7 @@ from __future__ import annotations
 import time as clock
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import inf, nan
 from numbers import Integral, Real
 from typing import TYPE_CHECKING, Any
@@ -35,6 +35,11 @@ CREEPING = 1e-10
 #: A step that was requested is progress, and steps are no shorter than this share of it by
 #: rounding to output times and stops.
 REQUESTED = 0.5
+#: Steps below it in a row that end a run: no fewer than these; as many as take a second or so, of
+#: unknowns together; less so many for each native run before, which takes as long as they.
+LEAST_PATIENCE, PATIENCE, PER_RUN = 10_000, 5_000_000, 1000
+#: Of what crept, carried from one native run to the next.
+CARRIED = ("crept", "halved", "covered", "longest", "growing")
 #: CPU of a run that has none left [s].
 LEAST = 1e-3
 #: Steps that a native run can count: enough for any.
@@ -140,17 +145,23 @@ class Budget:
     began: float = 0.0
     taken: int = 0
     short: float = 0.0
-    crept: int = 0
+    runs: int = 0
+    crept: dict[str, float] = field(default_factory=dict)
 
     def begin(self, span: float) -> None:
         """A dynamic analysis over a span of time begins."""
-        self.short, self.crept = CREEPING * span if self.steps is None else 0.0, 0
+        self.short, self.runs = CREEPING * span if self.steps is None else 0.0, 0
+        self.crept.clear()
 
     def lend(self, system: System) -> None:
         """What a native run that is ready to begin may spend."""
         lent, run = system.budget, system.settings
         lent[:] = 0
-        lent.t, lent.crept = float(run.t), self.crept
+        lent.t = float(run.t)
+        for name, value in self.crept.items():
+            setattr(lent, name, value)
+        patience = PATIENCE // max(1, system.nz) - PER_RUN * self.runs
+        lent.patience = max(LEAST_PATIENCE, patience)
         lent.short = min(self.short, REQUESTED * float(run.h_max))
         left = 0 if self.steps is None else max(1, self.steps - self.taken)
         lent.most = min(left, MOST_COUNTED)
@@ -158,7 +169,8 @@ class Budget:
     def settle(self, system: System) -> None:
         """Take over what a native run has spent."""
         self.taken += int(system.count.steps)
-        self.crept = int(system.budget.crept)
+        self.runs += 1
+        self.crept = {name: getattr(system.budget, name) for name in CARRIED}
 
     @property
     def out_of_time(self) -> bool:
