@@ -35,6 +35,9 @@ CYCLE = POINT + (
 STIFF = POINT + (
     "VFORCE/1, I=2, J_PART=1, FX=-1E6*DX(2)\nVFORCE/2, I=2, J_PART=1, FX=-1E26*DX(2)\nEND\n"
 )
+# Twelve days, beginning with 1e5 rad/s.
+DAYS = 1e6
+FORCED = POINT + "VFORCE/1, I=2, J_PART=1, FX={}\nEND\n"
 # A load of an amplitude and a frequency of which steps cannot pass a period.
 SHAKEN = POINT + "VFORCE/1, I=2, J_PART=1, FX=1E26*SIN(1E13*TIME)\nEND\n"
 # Nothing is looked further ahead than a delay.
@@ -101,6 +104,21 @@ def test_steps_that_were_requested_do_not_creep(monkeypatch: pytest.MonkeyPatch)
     assert short.outcome is Outcome.CPU_LIMIT and short.summary["steps"] > LEAST_PATIENCE
 
 
+@pytest.mark.parametrize("step", ("1E-9", "1E-11"))
+def test_equal_steps_of_verlet_that_were_requested_do_not_creep(step: str) -> None:
+    """Nor are they too short: they are below 1e-8 of an output step."""
+    deck = with_integrator(POINT + "END\n", f"VERLET, HINIT={step}")
+    results = ended_early(deck, max_steps=20_000)
+    assert results.outcome is Outcome.STEP_LIMIT and "held by" not in results.message
+
+
+def test_short_steps_that_are_stable_are_taken() -> None:
+    """A spring of 2e6 rad/s, 60 million steps on the way to the first output: no HMIN is given."""
+    deck = with_integrator(FORCED.format("-4E12*DX(2)"), "VERLET")
+    results = ended_early(deck, 50.0, 1, cpu_limit=0.3)
+    assert results.outcome is Outcome.CPU_LIMIT, results.message
+
+
 def test_a_load_that_is_known_to_calm_down_is_no_creeping(monkeypatch: pytest.MonkeyPatch) -> None:
     """It turns 20 000 rad in all, most of them in the first 10 ns, whose steps keep its pace."""
     monkeypatch.setattr(run_options, "PATIENCE", 0)
@@ -114,9 +132,6 @@ def test_creeping_goes_on_for_as_many_steps_as_are_allowed() -> None:
     assert results.outcome is Outcome.STEP_LIMIT and results.summary["steps"] == PATIENCE
 
 
-# Twelve days, beginning with 1e5 rad/s.
-DAYS = 1e6
-FORCED = POINT + "VFORCE/1, I=2, J_PART=1, FX={}\nEND\n"
 RINGS = FORCED.format("-1E10*(DX(2)-0.999)-2E2*VX(2)")
 WORKS = FORCED.format("1E5*SIN(1E5*TIME)*STEP(TIME,0.9,1,1,0)")
 STRIKES = FORCED.format("1E5*SIN(1E5*TIME)*IF(TIME-9E5:0,0,1)*IF(TIME-9E5-0.1:1,0,0)")

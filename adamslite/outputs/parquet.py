@@ -14,6 +14,7 @@ import numpy as np
 
 from adamslite.errors import FormatError, UsageError
 from adamslite.language.text import contents
+from adamslite.native.worker import interruptible
 from adamslite.outputs.whole_files import whole_file
 from adamslite.results.channels import with_units
 from adamslite.results.formats import register_format
@@ -35,7 +36,7 @@ def write(results: Results, path: str | Path) -> None:
         columns.append(arrow.array(np.ascontiguousarray(results[name])))
     schema = arrow.schema(fields, metadata=attributes(results))
     memory = BytesIO()
-    parquet.write_table(arrow.table(columns, schema=schema), memory)
+    interruptible(lambda: parquet.write_table(arrow.table(columns, schema=schema), memory))
     with whole_file(path, binary=True) as stream:
         stream.write(memory.getbuffer())
 

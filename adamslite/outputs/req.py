@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from adamslite.errors import FormatError
+from adamslite.outputs.number_text import blocks_of
 from adamslite.outputs.whole_files import whole_file
 from adamslite.outputs.xrf import source_of
 from adamslite.results.formats import register_format
@@ -91,18 +92,17 @@ def _entries(requests: list[Any]) -> Iterator[str]:
 
 
 def _steps(results: Results, requests: list[Any]) -> Iterator[str]:
-    zero = np.zeros(len(results.time))
     columns = [
-        results[f"{each.label}.{name}"] if name in each.result_names else zero
+        results[f"{each.label}.{name}"] if name in each.result_names else None
         for each in requests
         for name in WRITTEN
     ]
     line = "{:14.5E}" * len(WRITTEN) + "\n"
-    rows = np.column_stack(columns).tolist() if columns else [[]] * len(results.time)
-    for time, row in zip(results.time.tolist(), rows, strict=True):
-        yield f"{time:14.5E}\n"
-        for k in range(0, len(row), len(WRITTEN)):
-            yield line.format(*row[k : k + len(WRITTEN)])
+    for block in blocks_of([results.time, *columns]):
+        for time, *row in block.tolist():
+            yield f"{time:14.5E}\n"
+            for k in range(0, len(row), len(WRITTEN)):
+                yield line.format(*row[k : k + len(WRITTEN)])
 
 
 def read(path: str | Path) -> Results:

@@ -38,7 +38,7 @@ from adamslite.outputs.adams.xrf_layout import (
     UNITS,
     packed,
 )
-from adamslite.outputs.number_text import lines
+from adamslite.outputs.number_text import blocks_of, lines
 from adamslite.outputs.whole_files import whole_file
 from adamslite.results.formats import register_format
 from adamslite.results.run_texts import attributes, need_rows, printable
@@ -239,7 +239,7 @@ time="{words.get("time", "")}" />
         yield "</Entity>\n"
     yield "</StepMap>\n"
     table = [results.time, *(values for each in entities for *_, values in each.components)]
-    yield from _data(np.column_stack(table), decimals)
+    yield from _data(table, decimals)
     ended = "Successful" if results.outcome.is_requested else "Failed"
     yield f'<TerminationStatus runTermObject="" runStatus="{ended}" />\n</Analysis>\n</Results>\n'
     texts = {**attributes(results), "channels": json.dumps(results.names)}
@@ -266,16 +266,18 @@ def _component(word: str, unit: str, number: int) -> str:
     return f'<Component name={quoted(word)}{shown} id="{number}" />'
 
 
-def _data(table: np.ndarray, decimals: int) -> Iterator[str]:
-    """The steps of a table (nt, 1 + n): those of the first time are the initial conditions."""
-    first = int((table[:, 0] == table[:1, 0]).sum()) if len(table) else 0
-    blocks = (("initialConditions", table[:first]), ("dynamic", table[first:]))
-    for number, (kind, rows) in enumerate(blocks, start=1):
-        if len(rows):
+def _data(table: Sequence[np.ndarray], decimals: int) -> Iterator[str]:
+    """The steps of times and columns (nt,): those of the first time are the initial conditions."""
+    times = table[0]
+    first = int((times == times[:1]).sum())
+    pieces = (("initialConditions", slice(first)), ("dynamic", slice(first, None)))
+    for number, (kind, piece) in enumerate(pieces, start=1):
+        if len(times[piece]):
             yield f'<Data name="{kind}_001" id="{number}">\n'
-            for text in lines(rounded(rows, decimals)):
-                for line in text.splitlines():
-                    yield f'<Step type="{kind}">\n{_broken(line.split(","))}</Step>\n'
+            for block in blocks_of([column[piece] for column in table]):
+                for text in lines(rounded(block, decimals)):
+                    for line in text.splitlines():
+                        yield f'<Step type="{kind}">\n{_broken(line.split(","))}</Step>\n'
             yield "</Data>\n"
 
 

@@ -74,12 +74,12 @@ class Outcome(Enum):
     )
     CREEPING = (
         "The run creeps: ten thousand steps or more were shorter than 1e-10 of the analysis, with "
-        "hardly one between them that was not, and became no longer, which at this rate would never end. Take what keeps the "
-        "steps short out of the scene (a vibration far too fast: a stiffness too large or a mass "
-        "too small; an expression of TIME that changes too often; a branch that changes to and "
-        "fro), use another integrator (`adamslite chart` compares them; an explicit one keeps to "
-        "steps that are stable), allow a larger ERROR, or give an earlier END. With --max-steps N "
-        "it goes on for so many steps, however short."
+        "hardly one between them that was not, and became no longer, which at this rate would "
+        "never end. Take what keeps the steps short out of the scene (a vibration far too fast: a "
+        "stiffness too large or a mass too small; an expression of TIME that changes too often; a "
+        "branch that changes to and fro), use another integrator (`adamslite chart` compares them; "
+        "an explicit one keeps to steps that are stable), allow a larger ERROR, or give an earlier "
+        "END. With --max-steps N it goes on for so many steps, however short."
     )
     STEP_LIMIT = (
         "The run has taken as many steps as --max-steps allows; everything computed until then is "

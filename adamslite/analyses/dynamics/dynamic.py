@@ -49,7 +49,7 @@ JUDGED, LATER = 1_000, 2
 # up to 6 or so; where accuracy limits steps they are shorter than a decay.
 HELD_DOWN = 2.0
 # Numbers of results from which on it takes a while to keep them, and what is said then.
-MANY = 5_000_000
+MANY = 1_000_000
 ENDING = "interrupted: what there is will be written, which takes a while; Ctrl-C ends that, too"
 # How a run may end before a motion that jumps, or gets ever faster.
 CLOSE = (Outcome.DONE, Outcome.STEP_TOO_SMALL, Outcome.NEWTON_FAILED, Outcome.CREEPING)
@@ -366,7 +366,8 @@ def _watch(
             elif progress and running.works:
                 progress.watch(look())
         except KeyboardInterrupt:
-            if progress and system.count.records * system.nw > MANY:
+            rows = int(system.count.records) + (outlet.history.count if outlet else 0)
+            if progress and rows * system.nw > MANY:
                 progress.say(ENDING)
             outlet.interrupt() if outlet else _stop(system)
 

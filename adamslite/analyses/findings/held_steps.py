@@ -32,7 +32,7 @@ def what_holds(system: System) -> str:
     if system.model.deck.delays and system.settings.t_end - system.settings.t < lent.short:
         return "its shortest DELAY: no step reaches further than that"
     if not lent.seen:  # steps that are counted by the interval are equal ones, without notes
-        return _changing(system)
+        return "" if system.settings.h_init > 0.0 else _changing(system)
     count = system.count
     since = Seen(int(count.steps - lent.crept), int(lent.events), int(lent.failures))
     limits = StepLimits(system, since if 0 < lent.crept <= count.steps else START)

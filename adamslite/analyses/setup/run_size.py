@@ -19,8 +19,8 @@ from adamslite.errors import UsageError
 from adamslite.machine import free_disk, free_memory
 
 NUMBER, OF_TIME = 8, 5
-#: Formats that are written row by row.
-BY_ROWS = (".csv", "")
+#: Formats that are written row by row, and those that are where rows are kept in a file.
+BY_ROWS, FROM_A_FILE = (".csv", ""), (".csv", "", ".nc")
 GIGA = 1e9
 TOO_LARGE = (
     "The results would have {rows} rows of {columns} columns, which take {need:.3g} GB of {what}, "
@@ -59,7 +59,7 @@ def require_room(rows: Rows, kept: int, file: Path | None) -> None:
     UsageError
         With what would be needed, what there is, and what to do.
     """
-    by_rows = file is None or file.suffix.lower() in BY_ROWS
+    by_rows = file is None or file.suffix.lower() in (FROM_A_FILE if rows.filed else BY_ROWS)
     own = 0 if rows.filed else rows.record + rows.copies * rows.columns
     whole = 0 if by_rows else (3 if rows.filed else 1) * rows.columns
     memory = NUMBER * rows.number * (own + whole + OF_TIME)

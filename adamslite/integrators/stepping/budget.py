@@ -2,11 +2,11 @@
 
 A run creeps when the steps that it has taken are by more than ``P.budget.patience``, and by more
 than a tenth of all, too many for the time that they took: steps of ``P.budget.short``, a share of
-the analysis that the caller decides on, are as many as they may be.  What lies ahead would take more
-than 1e10 of them.
+the analysis that the caller decides on, are as many as they may be.  What lies ahead would take
+more than 1e10 of them.
 
-It does not creep while steps become longer: of a vibration that dies out, each half as many steps as
-the patience cover more time than any before.
+It does not creep while steps become longer: of a vibration that dies out, each half as many steps
+as the patience cover more time than any before.
 """
 
 from __future__ import annotations

@@ -41,6 +41,7 @@ from adamslite.integrators.events.stops import (
     set_pace,
 )
 from adamslite.integrators.linalg.plan import HUGE, Plan
+from adamslite.integrators.methods.verlet import LEAST
 from adamslite.integrators.motion_equations import put_time, run_groups, track
 from adamslite.integrators.records import has_room, write_record
 from adamslite.integrators.step_back import bring_audit_back, keep_audit
@@ -220,14 +221,13 @@ def cover(P: Problem, L: Plan, C: Control, t: float, end: float) -> int:
     if C.step == 0:
         keep_start(P, old)
     wanted, blown = min(C.wanted if C.tried == 0.0 else C.tried, longest_step(P)), C.blown
-    least = min(P.settings.h_min, longest_step(P))
     while C.step > 0 or not P.settings.stop:
         if not fixed:
             wanted = min(wanted, C.limit)
         h = (end - t) / max(1.0, 0.0 - floor(WHOLE - (end - t) / wanted))
         P.report.h = h
         count = int((end - t) / h + 0.5)
-        refused = refusal(P, C, h, count, wanted < least or blown == MOST_BLOWN)
+        refused = refusal(P, C, h, count, is_tiny(P, C, wanted) or blown == MOST_BLOWN)
         if refused != RUNNING:
             return refused
         if C.step == 0 and C.tried > 0.0 and is_time_to_pause(P, float(count)):
@@ -259,6 +259,19 @@ def cover(P: Problem, L: Plan, C: Control, t: float, end: float) -> int:
 
 
 @native
+def is_tiny(P: Problem, C: Control, wanted: float) -> bool:
+    """Whether a step is below HMIN, or below what stands for that and not for stability alone, of
+    which the budget counts the steps.
+    """
+    least = min(P.settings.h_min, longest_step(P))
+    if C.fixed:
+        return False
+    if least <= LEAST * P.settings.h_max:
+        least = min(least, C.limit)
+    return wanted < least
+
+
+@native
 def keep_start(P: Problem, old: Reals) -> None:
     """Where tries of an interval begin."""
     n = P.sizes.n
@@ -283,7 +296,7 @@ def refusal(P: Problem, C: Control, h: float, count: int, hopeless: bool) -> int
         return STEP_TOO_SMALL
     if C.fixed and STABLE * h > C.limit:
         return UNSTABLE
-    return would_overspend(P, h, count)
+    return would_overspend(P, HUGE if C.fixed else h, count)
 
 
 @native
