@@ -16,6 +16,9 @@ from pathlib import Path
 STATUS, MEMORY, GROUP = Path("/proc/self/status"), Path("/proc/meminfo"), Path("/proc/self/cgroup")
 GROUPS = Path("/sys/fs/cgroup")
 KIB = 1024
+#: Linear algebra takes so much when it is loaded and first used [byte]; where it gets none it ends
+#: the process, or waits for ever.
+ALGEBRA, OF_ALGEBRA = "scipy.linalg", 100_000_000
 
 _limit: int | None = None
 
@@ -28,13 +31,32 @@ def memory_limited(limit: int | None) -> Iterator[None]:
         yield
         return
     outer, before = _limit, _system_limit()
+    _use_algebra()
     _limit = limit if outer is None else min(limit, outer)
     _set_system_limit(_limit)
+    guard = _Guard()
+    sys.meta_path.insert(0, guard)
     try:
         yield
     finally:
+        sys.meta_path.remove(guard)
         _limit = outer
         _set_system_limit(before)
+
+
+class _Guard:
+    """Stands before the import of linear algebra, which needs memory that it must get."""
+
+    def find_spec(self, name: str, path: object = None, target: object = None) -> None:
+        if name == ALGEBRA:
+            require_memory(OF_ALGEBRA)
+
+
+def _use_algebra() -> None:
+    """Let that of numpy, which is loaded, take what it needs: it ends the process otherwise."""
+    import numpy as np
+
+    np.linalg.solve(np.eye(2), np.ones(2))
 
 
 def lift_memory_limit() -> None:

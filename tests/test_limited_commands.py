@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import importlib
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +13,7 @@ import pytest
 from fit_scenes import SWINGS, K, X, table
 
 import adamslite as al
-from adamslite import Outcome
+from adamslite import Outcome, machine
 from adamslite.cli.main import main
 from adamslite.errors import RunFailed
 from adamslite.native import worker
@@ -150,3 +153,35 @@ def test_a_reference_whose_run_reaches_a_limit_is_not_met(capsys) -> None:
     deck = Path(__file__).parents[1] / "decks/hanging-mass"
     assert main(["verify", str(deck), "--max-steps", "10"]) == 1
     assert "STEP_LIMIT" in capsys.readouterr().out
+
+
+def test_linear_algebra_needs_its_memory(monkeypatch) -> None:
+    """Its library ends the process, or waits for ever, where it gets none."""
+    monkeypatch.delitem(sys.modules, machine.ALGEBRA, raising=False)
+    used = machine.used_memory()
+    with machine.memory_limited(used + machine.OF_ALGEBRA // 2), pytest.raises(MemoryError):
+        importlib.import_module(machine.ALGEBRA)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="no other system keeps a limit")
+@pytest.mark.parametrize("command", ["linear", "sens", "fit"])
+def test_whatever_memory_there_is_a_command_ends_by_name(
+    tmp_path, monkeypatch, command: str
+) -> None:
+    """From a limit that is too small for the program itself to one that is enough."""
+    monkeypatch.chdir(tmp_path)
+    Path("swings.adm").write_text(SWINGS)
+    words = {"linear": [], "sens": ["--of", "POINT_MASS/2.x@end"], "fit": [str(measured())]}
+    by = [] if command == "linear" else ["--by", K]
+    codes = []
+    for size in (60, 90, 100, 120, 140, 170, 200, 250, 1000):
+        done = subprocess.run(
+            [sys.executable, "-m", "adamslite", command, "swings.adm", *words[command], *by,
+             "--memory-limit", f"{size}MB"],
+            capture_output=True, text=True, timeout=60,
+        )  # fmt: skip
+        assert done.returncode in (0, 2, 4), (size, done.stderr)
+        assert done.returncode == 0 or "--memory-limit" in done.stdout + done.stderr
+        codes.append(done.returncode)
+    assert codes[-1] == 0 and codes[0] != 0

@@ -100,11 +100,11 @@ def test_more_than_the_disk_has_room_for_is_refused(
     assert len(al.Results.load(out).time) > 1
 
 
-@pytest.mark.parametrize(("name", "code"), [("out.csv", 4), ("out.nc", 2)])
+@pytest.mark.parametrize(("name", "code"), [("out.csv", 4), ("out.nc", 4), ("out.mat", 2)])
 def test_rows_that_are_kept_in_a_file_need_no_memory(
     name: str, code: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any
 ) -> None:
-    """2e7 rows of 9 columns with 2 GB free: a table is written row by row, NetCDF is not."""
+    """2e7 rows of 9 columns with 2 GB free: a table and NetCDF are written row by row."""
     deck = tmp_path / "point.adm"
     deck.write_text(POINT)
     monkeypatch.setattr(machine, "_of_machine", lambda: 2_000_000_000)
@@ -150,6 +150,7 @@ def test_the_limit_holds_while_a_run_lasts_and_no_longer() -> None:
         np.zeros(100_000_000)
 
 
+@pytest.mark.slow
 @LINUX
 @pytest.mark.slow  # compiles the engine of a new process
 def test_a_compiler_without_memory_ends_by_name(tmp_path: Path) -> None:

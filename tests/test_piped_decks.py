@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from scenes import SPRING
 
+import adamslite as al
 from adamslite.cli.main import main
 
 RUN = ("--end", "0.5", "--steps", "5", "--quiet")
@@ -128,3 +129,20 @@ def test_a_run_of_a_piped_deck_keeps_no_file(piped, monkeypatch) -> None:
     monkeypatch.setattr("adamslite.analyses.dynamics.history.Journal", kept)
     piped(SPRING)
     assert main(["solve", "-", *RUN]) == 0
+
+
+def test_sweeps_and_fits_of_a_piped_deck_are_those_of_its_file(piped, tmp_path: Path) -> None:
+    """The file of a sweep has the name of the deck in it, the rest is the same."""
+    (tmp_path / "spring.adm").write_text(SPRING)
+    assert main(["solve", "spring.adm", *RUN]) == 0
+    varied = ["POINT_MASS/2.MASS=1,2", "--measure", "max POINT_MASS/2.x", "--workers", "1", *RUN]
+    fitted = ["spring.csv", "--by", "POINT_MASS/2.MASS", *RUN]
+    for name in ("spring.adm", "-"):
+        piped(SPRING)
+        assert main(["sweep", name, *varied]) == 0
+        piped(SPRING)
+        assert main(["fit", name, *fitted]) == 0
+    one, other = (al.load_sweep(f"{name}.sweep.nc") for name in ("spring", "stdin"))
+    assert (one.measures == other.measures).all() and len(one) == 2
+    one, other = (Path(f"{name}.fitted.adm").read_text() for name in ("spring", "stdin"))
+    assert one == other

@@ -253,8 +253,10 @@ def read(path: str | Path) -> Results:
             return _results(file)
     except FormatError as fault:
         raise FormatError(f"{path}: {fault}") from None
-    except (ValueError, TypeError, IndexError, KeyError, OverflowError, struct.error) as fault:
-        raise FormatError(f"{path} is damaged or cut off: {fault or 'it ends early'}") from None
+    except (ValueError, TypeError, IndexError, KeyError, OverflowError, struct.error):
+        raise FormatError(
+            f"{path} is damaged or cut off: its {len(data)} bytes are not those of whole results"
+        ) from None
 
 
 def _results(file: Any) -> Results:

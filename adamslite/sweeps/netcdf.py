@@ -149,10 +149,12 @@ def read(path: str | Path) -> Sweep:
             if "sweep" not in file._attributes:
                 raise FormatError(f"{path} holds no sweep")
             return _sweep(file)
-    except DAMAGED as fault:
-        if isinstance(fault, FormatError):
-            raise
-        raise FormatError(f"{path} is damaged or cut off: {fault or 'it ends early'}") from None
+    except FormatError:
+        raise
+    except DAMAGED:  # in the words of whatever noticed it
+        raise FormatError(
+            f"{path} is damaged or cut off: its {len(data)} bytes are not those of a whole sweep"
+        ) from None
 
 
 def _sweep(file: Any) -> Sweep:

@@ -28,7 +28,7 @@ from adamslite.reading.numbers import Named
 from adamslite.results.channels import describe, of_argument, unit_symbols
 from adamslite.results.selection import selected
 from adamslite.sweeps import netcdf
-from adamslite.sweeps.job import Job, Run
+from adamslite.sweeps.job import AHEAD, FAULT, Job, Run
 from adamslite.sweeps.measures import of_columns, parsed
 from adamslite.sweeps.origin import origin_texts
 from adamslite.sweeps.progress import RunsState
@@ -239,6 +239,8 @@ def _gone_on_with(made: Sweep, path: Path) -> Sweep:
             f"'{path}' holds another sweep: the deck, the values, what is kept or the program have "
             f"changed since; remove it, or give -o another name"
         )
+    # What the program failed at may go well now: where memory was short, or a worker was ended.
+    there.outcomes = [AHEAD if each == FAULT else each for each in there.outcomes]
     return there
 
 

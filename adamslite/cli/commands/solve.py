@@ -15,6 +15,7 @@ import argparse
 import os
 import sys
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -84,12 +85,30 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Solve and write; return the exit code."""
+    part, journal = _resumed(args), None
+    try:
+        scene, output, files, page, journal = _prepared(args, part)
+        return _solved(args, scene, output, files, page, journal)
+    except KeyboardInterrupt:
+        if journal:
+            _keep(journal)
+        raise
+    finally:
+        for each in (part, journal and journal.part):
+            with suppress(OSError):  # of a full disk, which has been reported
+                if each:
+                    each.close()
+
+
+def _prepared(
+    args: argparse.Namespace, part: "PartFile | None"
+) -> "tuple[Scene, str, Sequence[Path], Path | None, Journal | None]":
+    """What is solved, the files that will be written, the page, where the run is kept."""
     from adamslite.errors import UsageError
     from adamslite.result_files import plan
     from adamslite.results.formats import format_of
     from adamslite.scene import load_scene
 
-    part = _resumed(args)
     if args.output == STDOUT and args.summary == "json":
         raise UsageError(
             "'-o -' and '--summary json' both want standard output; give -o a file name"
@@ -103,13 +122,7 @@ def run(args: argparse.Namespace) -> int:
     page = _page(args, scene, output)
     if not args.quiet:
         _tell_warnings(scene)
-    journal = _journal(args, scene, output, part)
-    try:
-        return _solved(args, scene, output, files, page, journal)
-    except KeyboardInterrupt:
-        if journal:
-            _keep(journal)
-        raise
+    return scene, output, files, page, _journal(args, scene, output, part)
 
 
 def _solved(
@@ -178,7 +191,6 @@ def _journal(
     unkept = _unkept(scene, output, part)
     if unkept:
         if found:
-            found.close()
             raise UsageError(f"{part} cannot be resumed: {unkept.unkept}")
         return unkept
     if os.path.lexists(part) and not found:

@@ -4,12 +4,13 @@ Each NAME=VALUES varies a number of the deck (`adamslite names` lists them): FRO
 equal distances, a list 1,2,4, or FROM:TO with a sample that draws. A grid runs all combinations.
 All runs go to one NetCDF file, DECK's name with .sweep.nc in the current directory or OUT; a run
 that fails is kept with its outcome. Interrupted, the file has what is done, and the same command
-goes on.
+goes on; it tries those again that the program itself failed at (FAULT).
 """
 
 import argparse
 import sys
 import time as clock
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,6 +18,8 @@ from adamslite.cli.commands.codes import DONE, STOPPED_EARLY
 from adamslite.run_flags import add_integration_flags, add_scene_flags, count, positive, run_options
 
 if TYPE_CHECKING:
+    from adamslite.deck.deck import Deck
+    from adamslite.sweeps.ranges import Varied
     from adamslite.sweeps.record import Sweep
 
 MOST_TOLD = 3
@@ -78,6 +81,7 @@ def run(args: argparse.Namespace) -> int:
     if output.suffix.lower() != ".nc":
         raise UsageError(f"-o {output}: the file of a sweep ends in .nc")
     scene = load_scene(args.deck, args.commands, args.user, args.values)
+    _need_one_source(scene.deck, args.varied, args.values)
     wanted = Wanted(args.varied, args.sample, args.seed, args.measures, args.outputs)
     options = run_options(args)
     means = Means(args.workers, "threads" if args.threads else "processes", args.scheduler)
@@ -91,6 +95,25 @@ def run(args: argparse.Namespace) -> int:
         progress.close()
     _tell(found, output, clock.perf_counter() - began, args)
     return STOPPED_EARLY if found.ahead or found.failed else DONE
+
+
+def _need_one_source(deck: "Deck", varied: "Varied", given: Sequence[str]) -> None:
+    """Reject a number that is varied and has a value by --set: one would win silently."""
+    from adamslite.errors import UsageError
+    from adamslite.sweeps.ranges import ranges_of
+    from adamslite.variation.decks import variable_of
+
+    if not given:
+        return
+    find = variable_of(deck.base or deck).numbers.find
+    set_here = {find(text.partition("=")[0]).name: text for text in given}
+    for each in ranges_of(varied):
+        name = find(each.name).name
+        if name in set_here:
+            raise UsageError(
+                f"{name} is varied, and has one value by --set {set_here[name]}: leave one of them "
+                "out"
+            )
 
 
 def _tell(found: "Sweep", output: Path, taken: float, args: argparse.Namespace) -> None:

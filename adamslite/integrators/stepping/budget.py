@@ -32,17 +32,9 @@ def spent(P: Problem, t: float) -> int:
     if P.count.steps != B.seen:
         note_advance(P, t - B.t, 1)
         B.seen, B.t = P.count.steps, t
-    if B.crept > B.patience and creeps(P):
+    if B.crept > B.patience and B.crept > WORTH_WAITING * P.count.steps and not B.growing:
         return CREEPING
     return STEP_LIMIT if B.most > 0 and P.count.steps >= B.most else RUNNING
-
-
-@native
-@rare
-def creeps(P: Problem) -> bool:
-    """Whether the short steps are too many against the others, and become no longer."""
-    B = P.budget
-    return B.crept > WORTH_WAITING * P.count.steps and not B.growing
 
 
 @native
