@@ -13,9 +13,6 @@ from adamslite.language.method import (
 
 # Bodies up to which rows are a few whole vectors; numbers that processors take at once.
 SHORT, LINE = 64, 4
-# Of HMAX, what stands for an HMIN that is not given: near a pole of a force its equal steps would
-# be so many that the run does not end.
-LEAST = 1e-8
 
 
 def prepare(system: Equations, settings: Settings) -> None:
@@ -43,7 +40,8 @@ register(
         cannot=(CONSTRAINTS, ROTATIONS, STATE_JUMPS),
         tests_velocities=False,
         steps=FIXED_BY_HINIT,
-        least_step=LEAST,
+        # Near a pole of a force its equal steps would be so many that the run does not end.
+        least_step=1e-8,
         by_component=True,
         pauses=True,
         in_blocks=True,

@@ -41,7 +41,6 @@ from adamslite.integrators.events.stops import (
     set_pace,
 )
 from adamslite.integrators.linalg.plan import HUGE, Plan
-from adamslite.integrators.methods.verlet import LEAST
 from adamslite.integrators.motion_equations import put_time, run_groups, track
 from adamslite.integrators.records import has_room, write_record
 from adamslite.integrators.step_back import bring_audit_back, keep_audit
@@ -78,6 +77,8 @@ SPIKE, JOLT, STIFFER, IN_CONTACT = 4.0, 0.1, 0.9, 0.3
 SAFETY_DOWN, SAFETY, LEAST_ERROR = 0.8, 0.9, 1e-3
 # An interval shorter than this share of a step says nothing about the next one.
 CUT_OFF = 0.25
+# Of HMAX, what stands for an HMIN that is not given (``least_step`` of the registered method).
+LEAST = 1e-8
 # What a number of steps may exceed a whole one by without one step more.
 WHOLE = 1e-9
 # Steps that take less than a try of a step by other methods.
