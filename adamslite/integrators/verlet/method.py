@@ -261,15 +261,11 @@ def cover(P: Problem, L: Plan, C: Control, t: float, end: float) -> int:
 
 @native
 def is_tiny(P: Problem, C: Control, wanted: float) -> bool:
-    """Whether a step is below HMIN, or below what stands for that and not for stability alone, of
-    which the budget counts the steps.
-    """
+    """Whether a step is below HMIN, or what stands for that, but not for stability alone."""
     least = min(P.settings.h_min, longest_step(P))
-    if C.fixed:
-        return False
     if least <= LEAST * P.settings.h_max:
         least = min(least, C.limit)
-    return wanted < least
+    return wanted < least and not C.fixed
 
 
 @native
