@@ -151,13 +151,17 @@ def test_blank_and_comment_lines_take_no_memory_of_their_own():
 # ---- few guesses ---------------------------------------------------------------------------------
 
 
-def test_guesses_about_one_text_are_bounded(monkeypatch):
+@pytest.mark.parametrize(
+    "known, line", [("MARKER/some{0}, PART=2", "REQUEST/{0}, F2=DX(other{0}, 1)"),
+                    ("POINT_MASS/some{0}, MASS=1", "MREQUEST/{0}, DISPLACEMENT, PARTS=other{0}")],
+)  # fmt: skip
+def test_guesses_about_one_text_are_bounded(monkeypatch, known, line):
     made = []
     monkeypatch.setattr(
         likeness, "did_you_mean", lambda word, listed: made.append(len(listed)) or ""
     )
-    names = "".join(f"MARKER/some{n}name, PART=2\n" for n in range(900))
-    told(DECK + names + "".join(f"REQUEST/{n}, F2=DX(other{n}, 1)\n" for n in range(1, 900)))
+    names = "".join(f"{known.format(n)}\n" for n in range(900))
+    told(DECK + names + "".join(f"{line.format(n)}\n" for n in range(1, 900)))
     assert 0 < sum(made) < likeness.BUDGET + 1000
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from functools import partial
 
 from adamslite.checks.rule import Rule
 from adamslite.deck.deck import Deck
@@ -12,7 +13,7 @@ from adamslite.elements.request import Request
 from adamslite.functions.integration import NUMBERS
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.expression import calls
-from adamslite.language.likeness import did_you_mean
+from adamslite.language.likeness import Guesses
 
 
 def requests(deck: Deck) -> Iterator[Diagnostic]:
@@ -30,7 +31,13 @@ def requests(deck: Deck) -> Iterator[Diagnostic]:
             yield diagnose(request, "empty-request")
 
 
+def _known(deck: Deck, kinds: Sequence[str]) -> list[str]:
+    """Names and ids of statements of some kinds."""
+    return [word for kind in kinds for word in deck.names.known(kind)]
+
+
 def many_requests(deck: Deck) -> Iterator[Diagnostic]:
+    guesses = Guesses()
     for each in deck.of(Mrequest):
         if not list(each.asked()):
             hint = "give PARTS=, JOINTS=, JPRIMS= or FORCES= with ids or ALL, or just ALL"
@@ -38,11 +45,11 @@ def many_requests(deck: Deck) -> Iterator[Diagnostic]:
         for field, key in each.asked():
             kinds = KINDS[field]
             if key != ALL and not each.named(deck, field, key) and not deck.incomplete & {*kinds}:
-                known = [word for kind in kinds for word in deck.names.known(kind)]
+                names = partial(_known, deck, kinds)
                 yield diagnose(
                     each, "missing-reference", field,
                     kind=kinds[0] if len(kinds) < 3 else "force", key=key,
-                    hint=did_you_mean(str(key), known),
+                    hint=guesses.meant(str(key), field, names),
                 )  # fmt: skip
 
 

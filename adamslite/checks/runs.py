@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from functools import partial
 from typing import Any
 
 from adamslite.checks.rule import Rule, positive
@@ -27,7 +28,7 @@ from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.expression import Node, Ref, calls, walk
 from adamslite.language.file_name import is_file_name
 from adamslite.language.interfaces import Key
-from adamslite.language.likeness import did_you_mean
+from adamslite.language.likeness import Guesses
 from adamslite.language.method import USUAL, method_of, methods, without_effect
 from adamslite.language.statement import Statement, expressions
 
@@ -191,25 +192,29 @@ def sensors(deck: Deck) -> Iterator[Diagnostic]:
 
 
 def switched_elements(deck: Deck) -> Iterator[Diagnostic]:
+    guesses = Guesses()
     for each in deck.statements:
         if not isinstance(each, Activate | Deactivate):
             continue
         if not each.ids and each.range is None:
             yield diagnose(each, "missing-argument", word="ID", hint="ID=1,2 or RANGE=first,last")
         for key in each.ids:
-            yield from _missing(deck, each, key)
+            yield from _missing(deck, each, key, guesses)
         if each.range and not each.elements(deck.names):
             low, high = map(int, each.range)
             yield diagnose(each, "empty-range", "range", kind=each.kind, low=low, high=high)
 
 
-def _missing(deck: Deck, switch: Activate | Deactivate, key: Key) -> Iterator[Diagnostic]:
+def _missing(
+    deck: Deck, switch: Activate | Deactivate, key: Key, guesses: Guesses
+) -> Iterator[Diagnostic]:
     found = deck.names.find(switch.kind, key)
     if isinstance(found, list):
         labels = ", ".join(f"{switch.kind}/{each}" for each in found[:5])
         yield diagnose(switch, "ambiguous-name", "ids", word=key, labels=labels)
     elif found is None:
-        hint = did_you_mean(str(key), deck.names.known(switch.kind))
+        known = partial(deck.names.known, switch.kind)
+        hint = guesses.meant(str(key), switch.kind, known)
         yield diagnose(switch, "missing-reference", "ids", kind=switch.kind, key=key, hint=hint)
 
 
