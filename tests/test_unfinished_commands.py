@@ -180,15 +180,16 @@ def test_a_long_run_that_is_not_kept_says_so(
     assert not list(tmp_path.glob("*.part*"))
 
 
-class TestGoingOn:
-    @pytest.fixture(scope="class")
-    def kept(self, tmp_path_factory: pytest.TempPathFactory) -> bytes:
-        """What a run that was killed has left, in a folder that is there no more."""
-        folder = tmp_path_factory.mktemp("killed")
-        data = left_behind(folder, LONG, *FLAGS).read_bytes()
-        shutil.rmtree(folder)
-        return data
+@pytest.fixture(scope="module")
+def kept(tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    """What a run that was killed has left, in a folder that is there no more."""
+    folder = tmp_path_factory.mktemp("killed")
+    data = left_behind(folder, LONG, *FLAGS).read_bytes()
+    shutil.rmtree(folder)
+    return data
 
+
+class TestGoingOn:
     @pytest.fixture
     def part(self, kept: bytes, tmp_path: Path) -> Path:
         """Its file, with rows before the last state, beside the deck."""
