@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from functools import cache
 from typing import ClassVar, NamedTuple
 
 from adamslite.language.abbreviations import match
@@ -35,9 +36,7 @@ class InertStatement(Statement):
     @property
     def words(self) -> dict[str, str]:
         """The arguments by their full names, with their values as written."""
-        names = [name for listed, _ in self.known for name in listed.split(", ")]
-        table = {name: name for name in names}
-        found = {}
+        table, found = _full_names(self.known), {}
         for word, value in ARGUMENT.findall(COMMENT.sub("", self.written)):
             meant = match(word.upper(), table)
             found[meant if isinstance(meant, str) else word.upper()] = value.strip()
@@ -46,10 +45,18 @@ class InertStatement(Statement):
     @property
     def passed_over(self) -> tuple[str, ...]:
         """What of it has no effect at all: words, or the statement."""
+        if not self.acting:
+            return (self.keyword,)
         words = self.words
-        if not self.acting or self.acting[0] not in words:
+        if self.acting[0] not in words:
             return (self.keyword,)
         return tuple(f"{self.keyword} {word}" for word in words if word not in self.acting)
+
+
+@cache
+def _full_names(known: tuple[tuple[str, str], ...]) -> dict[str, str]:
+    """The full names of arguments, by themselves."""
+    return {name: name for listed, _ in known for name in listed.split(", ")}
 
 
 ARGUMENT = re.compile(r"(?:^|,)\s*([A-Za-z]\w*)\s*(?:=([^,\n]*))?")

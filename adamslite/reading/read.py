@@ -105,6 +105,11 @@ def read_commands(source: str | Path, deck: Deck) -> Commands:
 
 def commands_of(source: Source, deck: Deck, path: Path | None = None) -> Commands:
     """The commands of a text; see :func:`read_commands`."""
+    with without_collection():
+        return _commands_of(source, deck, path)
+
+
+def _commands_of(source: Source, deck: Deck, path: Path | None) -> Commands:
     reading = Reading(source, deck.names, "command", deck)
     read = reading.statements(reading.names_on_top())
     commands = Commands(bound(read, reading, deck.user, deck))

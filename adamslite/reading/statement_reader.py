@@ -260,9 +260,8 @@ class Reading:
         self.entries.append(entry)
 
     def _waiting(self, syntax: Syntax) -> Waiting:
-        """The syntax until the second pass; kinds of tokens are one object where they are equal."""
-        found = Waiting.of(syntax)
-        return found._replace(kinds=self._kinds.setdefault(found.kinds, found.kinds))
+        """The syntax until the second pass."""
+        return Waiting.of(syntax, self._kinds)
 
     def _enter_change(self, cls: type[Statement], syntax: Syntax) -> None:
         """A command that changes the statement of its id, which must exist."""

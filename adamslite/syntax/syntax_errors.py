@@ -75,13 +75,15 @@ class Waiting(NamedTuple):
     rest: tuple[Sequence[Item], str | None, bool, tuple[str, ...]]
 
     @classmethod
-    def of(cls, syntax: Syntax) -> Waiting:
-        """The same syntax, waiting."""
+    def of(cls, syntax: Syntax, known: dict[tuple[str, ...], tuple[str, ...]]) -> Waiting:
+        """The same syntax, waiting; equal kinds are one object, of those ``known``."""
         tokens = syntax.tokens
         if isinstance(tokens, Lexemes):
-            return cls((*tokens.kinds,), (*tokens.texts,), tokens.offsets, syntax[1:])
-        kinds, texts, offsets = zip(*tokens, strict=True)
-        return cls(kinds, texts, array("I", offsets), syntax[1:])
+            kinds, texts, offsets = (*tokens.kinds,), (*tokens.texts,), tokens.offsets
+        else:
+            kinds, texts, places = zip(*tokens, strict=True)
+            offsets = array("I", places)
+        return cls(known.setdefault(kinds, kinds), texts, offsets, syntax[1:])
 
     @property
     def syntax(self) -> Syntax:
