@@ -128,6 +128,7 @@ def test_a_word_of_any_length_is_cut():
 # ---- little memory -------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "kind",
     ["unknown arguments", "unknown statements", "exclamation marks", "UTF-16", "the same argument"],

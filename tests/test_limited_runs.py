@@ -85,6 +85,7 @@ END
 """
 
 
+@pytest.mark.slow
 def test_a_run_that_creeps_goes_on_for_so_many_steps(tmp_path: Path) -> None:
     deck = written(tmp_path, STIFFENS)
     flags = ("--integrator", "RKF45")

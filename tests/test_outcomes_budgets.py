@@ -127,6 +127,7 @@ def test_a_load_that_is_known_to_calm_down_is_no_creeping(monkeypatch: pytest.Mo
     assert results.summary["steps"] > 1.5 * LEAST_PATIENCE
 
 
+@pytest.mark.slow
 def test_creeping_goes_on_for_as_many_steps_as_are_allowed() -> None:
     results = ended_early(with_integrator(CYCLE, "RADAU"), max_steps=PATIENCE)
     assert results.outcome is Outcome.STEP_LIMIT and results.summary["steps"] == PATIENCE

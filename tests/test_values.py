@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tiers import every
+from tiers import every, slow
 
 import adamslite as al
 from adamslite.cli.main import main
@@ -267,6 +267,7 @@ def test_another_shape_is_made_the_long_way(values: dict[str, float]) -> None:
 # ---- every deck ----------------------------------------------------------------------------------
 
 DECKS = [path for path in sorted(DECKS_OF.rglob("*.adm")) if path.stat().st_size < 40_000]
+SHORT = [path for path in DECKS if path.stat().st_size < 20_000]
 
 
 def changed(rng: random.Random, value: float) -> float:
@@ -291,7 +292,9 @@ def bodies(kernels: Any) -> list[Any]:
     ]
 
 
-@pytest.mark.parametrize("path", every(12, DECKS), ids=str)
+@pytest.mark.parametrize(
+    "path", [*every(12, SHORT), *(slow(each) for each in DECKS if each not in SHORT)], ids=str
+)
 @pytest.mark.filterwarnings("ignore")
 def test_varied_kernels_are_those_of_the_edited_text(path: Path) -> None:
     """Some numbers twice, the second time quickly, against reading and binding the edited text."""
