@@ -295,6 +295,17 @@ def test_a_search_for_an_equilibrium_keeps_within_its_cpu() -> None:
     assert results.outcome is Outcome.CPU_LIMIT and results.time.tolist() == [0.0]
 
 
+# A saw of 500 000 teeth beside twenty switches, all found before the first step, in some 20 s.
+TEETH = POINT + "VFORCE/1, I=2, J_PART=1, FX=MOD(TIME,1E-5)" + "".join(
+    f"+IF(SIN({k}*TIME):0,0,1)" for k in range(1, 21)
+) + "\nEND\n"  # fmt: skip
+
+
+def test_a_search_for_edges_of_time_keeps_within_its_cpu() -> None:
+    results = ended_early(TEETH, 5.0, 10, cpu_limit=1.0)
+    assert results.outcome is Outcome.CPU_LIMIT and results.summary["steps"] == 0
+
+
 def test_a_search_for_an_equilibrium_can_be_interrupted(monkeypatch: pytest.MonkeyPatch) -> None:
     """What the command before it gave is kept."""
     wait = Worker.wait

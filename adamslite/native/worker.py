@@ -6,7 +6,7 @@ import signal
 import threading
 from _thread import allocate_lock, start_new_thread
 from collections.abc import Callable
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, TypeAlias, TypeVar
 
 # Time between two looks at a call that can be ended [s].
 LOOK = 0.1
@@ -14,6 +14,8 @@ LOOK = 0.1
 GRACE = 0.3
 
 Returned = TypeVar("Returned")
+#: Whether something has gone on for longer than its caller allows; None where any time will do.
+Over: TypeAlias = Callable[[], bool] | None
 
 
 class Overspent(Exception):
@@ -80,7 +82,7 @@ def _nothing() -> None:
 def interruptible(
     call: Callable[[], Returned],
     stop: Callable[[], None] = _nothing,
-    over: Callable[[], bool] | None = None,
+    over: Over = None,
 ) -> Returned:
     """What a call returns that the user may interrupt, or that may be ``over`` before.
 

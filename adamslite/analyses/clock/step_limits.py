@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from adamslite.analyses.clock.clock import Clock
     from adamslite.equations.system import System
     from adamslite.language.statement import Statement
+    from adamslite.native.worker import Over
 
 # From a step as short as round-off of the run to one of its length.
 DOUBLINGS = 64
@@ -62,16 +63,21 @@ class Timetable:
 
 
 def timetable(
-    system: System, clock: Clock, times: np.ndarray, longest: float, fine: bool
+    system: System,
+    clock: Clock,
+    times: np.ndarray,
+    longest: float,
+    fine: bool,
+    over: Over = None,
 ) -> Timetable:
     """Stops and paces of a run over ``times`` (nt,) with steps up to ``longest``.
 
-    ``fine``: the method does not test velocities.
+    ``fine``: the method does not test velocities; raises as :func:`~.stops.edges` does.
     """
     start, end = float(times[0]), float(times[-1])
     if not end > start:
         return Timetable(np.array([end]), np.array(contract.NO_PACE), [], [])
-    found, overfull = edges(system, clock, times)
+    found, overfull = edges(system, clock, times, over)
     edged, corners, spans, paced = [found], [], [np.zeros((0, 3))], []
     curves, slopes = clock.programs("curves"), clock.programs("slopes")
     known = all_time_scales([*curves, *slopes], start, end, SHORT * longest)

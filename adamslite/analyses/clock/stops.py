@@ -10,6 +10,7 @@ are found before the run:
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,12 +19,14 @@ from adamslite.analyses.clock.changes import NOISE, around_changes
 from adamslite.analyses.clock.clock import Clock
 from adamslite.analyses.clock.enclosures import enclose
 from adamslite.integrators.contract import CLOCK, LEAST_STEP
+from adamslite.native.worker import Overspent
 from adamslite.symbolic.guards import FLOOR, STRICT
 
 if TYPE_CHECKING:
     from adamslite.analyses.clock.clock import Program
     from adamslite.equations.system import System
     from adamslite.language.statement import Statement
+    from adamslite.native.worker import Over
 
     Programs = dict[Program, Statement]
 
@@ -45,8 +48,16 @@ def stops(system: System, times: np.ndarray) -> np.ndarray:
     return edges(system, Clock(system.kernels), times)[0]
 
 
-def edges(system: System, clock: Clock, times: np.ndarray) -> tuple[np.ndarray, list[Statement]]:
-    """The stops, and the statements whose changes are too many to find all of them."""
+def edges(
+    system: System, clock: Clock, times: np.ndarray, over: Over = None
+) -> tuple[np.ndarray, list[Statement]]:
+    """The stops, and the statements whose changes are too many to find all of them.
+
+    Raises
+    ------
+    Overspent
+        When it was ``over`` before.
+    """
     start, end = float(times[0]), float(times[-1])
     if not system.guarded["clock"] or not end > start:
         return np.array([end]), []
@@ -54,7 +65,7 @@ def edges(system: System, clock: Clock, times: np.ndarray) -> tuple[np.ndarray, 
     found, overfull = _grid(guards, floors, start, end)
 
     def stops() -> np.ndarray:
-        return merged(_lasting(system, _changes(system, found), start, end), times)
+        return merged(_lasting(system, _changes(system, found, over), start, end), times)
 
     decided_by = ("stops", *guards, None, *floors, found.tobytes(), times.tobytes())
     return system.layout.once(decided_by, stops), overfull
@@ -101,24 +112,29 @@ def _passed(program: Program, times: np.ndarray) -> float:
     return float(np.abs(np.diff(values[np.isfinite(values)])).sum())
 
 
-def _changes(system: System, grid: np.ndarray) -> np.ndarray:
+def _changes(system: System, grid: np.ndarray, over: Over = None) -> np.ndarray:
     """Every change between two times of the grid, sorted; a floor may pass several numbers."""
     below, above = grid[:-1], grid[1:]
-    found = []
+    found = [below[:0]]
     left, right = _branches(system, below), _branches(system, above)
+    changed = (left != right).any(axis=1)
+    below, above, left, right = (x[changed] for x in (below, above, left, right))
     while len(below):
+        if over is not None and over():
+            raise Overspent
         middle = 0.5 * (below + above)
-        changed = (left != right).any(axis=1)
         fine = above - below <= ROUND_OFF * (grid[-1] - grid[0])
         fine |= (middle <= below) | (middle >= above)
-        found.append(above[changed & fine])
-        open_ = changed & ~fine
-        if np.count_nonzero(open_) > MOST + len(grid):  # the rest is reported as too many
+        found.append(above[fine])
+        if np.count_nonzero(~fine) > MOST + len(grid):  # the rest is reported as too many
             break
-        below, above, left, right, middle = (x[open_] for x in (below, above, left, right, middle))
+        below, above, left, right, middle = (x[~fine] for x in (below, above, left, right, middle))
         inner = _branches(system, middle)
-        below, above = np.concatenate([below, middle]), np.concatenate([middle, above])
-        left, right = np.concatenate([left, inner]), np.concatenate([inner, right])
+        lower, upper = (left != inner).any(axis=1), (inner != right).any(axis=1)
+        below = np.concatenate([below[lower], middle[upper]])
+        above = np.concatenate([middle[lower], above[upper]])
+        left = np.concatenate([left[lower], inner[upper]])
+        right = np.concatenate([inner[lower], right[upper]])
     return np.unique(np.concatenate(found))
 
 
@@ -130,18 +146,27 @@ def _lasting(system: System, found: np.ndarray, start: float, end: float) -> np.
         return found
     ends = np.concatenate([[start], found, [end]])
     width = np.diff(ends)
-    values = sample(system, (ends[:-1, None] + width[:, None] * WITHIN).ravel())
-    values = values.reshape(len(width), len(WITHIN), -1)
-    size = np.abs(values).max(axis=(0, 1))
+    size = np.max([np.abs(each).max(axis=(0, 1)) for each in _within(system, ends)], axis=0)
     # Beside a change a value is round-off, of what may be much larger than what is left of it.
     noise = np.clip(_beside(system, found, end - start), NOISE * size, LOUD * size)
-    zero = (np.abs(values) <= noise).all(axis=1)
-    branch = _branch(system, values[:, len(WITHIN) // 2])
+    looked = [
+        ((np.abs(each) <= noise).all(axis=1), _branch(system, each[:, len(WITHIN) // 2]))
+        for each in _within(system, ends)
+    ]
+    zero, branch = (np.concatenate(each) for each in zip(*looked, strict=True))
     for guard in np.flatnonzero((zero[1:] & zero[:-1]).any(axis=0)):
         spans = np.flatnonzero(zero[:, guard])
         for run in np.split(spans, np.flatnonzero(np.diff(spans) > 1) + 1):
             branch[run, guard] = branch[run[width[run].argmax()], guard]
     return found[(branch[1:] != branch[:-1]).any(axis=1)]
+
+
+def _within(system: System, ends: np.ndarray) -> Iterator[np.ndarray]:
+    """Values of the guards inside spans between times, (n, WITHIN, guards), some spans at once."""
+    for at in range(0, len(ends) - 1, BLOCK):
+        here = ends[at : at + BLOCK + 1]
+        times = here[:-1, None] + np.diff(here)[:, None] * WITHIN
+        yield sample(system, times.ravel()).reshape(*times.shape, -1)
 
 
 def _beside(system: System, found: np.ndarray, length: float) -> np.ndarray:
@@ -155,18 +180,17 @@ def _beside(system: System, found: np.ndarray, length: float) -> np.ndarray:
 
 def _branches(system: System, times: np.ndarray) -> np.ndarray:
     """Branch of every guard of the clock at ``times``, (nt, guards)."""
-    return _branch(system, sample(system, times))
+    found = np.empty((len(times), len(system.guarded["clock"])))
+    for at in range(0, len(times), BLOCK):
+        found[at : at + BLOCK] = _branch(system, sample(system, times[at : at + BLOCK]))
+    return found
 
 
 def _branch(system: System, values: np.ndarray) -> np.ndarray:
     """Branch of every guard of the clock by its values, (nt, guards)."""
     kind = system.numbering.kind[: values.shape[1]]
-    found = np.empty_like(values)
-    for at in range(0, len(values), BLOCK):
-        here = values[at : at + BLOCK]
-        relation = np.where(kind == STRICT, here > 0.0, here >= 0.0)
-        found[at : at + BLOCK] = np.where(kind == FLOOR, np.floor(here), relation)
-    return found
+    relation = np.where(kind == STRICT, values > 0.0, values >= 0.0)
+    return np.where(kind == FLOOR, np.floor(values), relation)
 
 
 def sample(system: System, times: np.ndarray) -> np.ndarray:

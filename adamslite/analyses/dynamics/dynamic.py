@@ -21,7 +21,7 @@ from adamslite.integrators import contract
 from adamslite.integrators.contract import SPECTRUM
 from adamslite.language.method import FIXED, FIXED_BY_HINIT, USUAL, method_of
 from adamslite.native.translate import Rows
-from adamslite.native.worker import Worker, is_interrupted_here
+from adamslite.native.worker import Over, Worker, is_interrupted_here
 from adamslite.progress import RunState
 from adamslite.results.outcomes import Outcome
 
@@ -160,11 +160,13 @@ def make_ready(
     settings: Settings,
     audited: bool = False,
     in_blocks: bool = False,
+    over: Over = None,
 ) -> None:
     """Whatever an integration over ``times`` (nt,) needs to begin.
 
     ``apart``: the largest step between requested outputs; ``audited``: with a balance of energy in
-    ``system.audit``; ``in_blocks``: records go elsewhere when there is no more room for them.
+    ``system.audit``; ``in_blocks``: records go elsewhere when there is no more room for them;
+    Overspent is raised when the CPU is ``over`` before.
     """
     start, end = float(times[0]), float(times[-1])
     fixed = settings.fixed_step(apart)
@@ -180,7 +182,7 @@ def make_ready(
     run.all_converge = settings.corrector in EVERYTHING
     run.stop, run.begun, system.report.torn = False, False, 0
     system.pattern = ints([word == "T" for word in settings.pattern])
-    times = _scheduled(system, times, settings, hmax)
+    times = _scheduled(system, times, settings, hmax, over)
     run.t_end = float(system.stops[-1])
     settings.formula.prepare(system, settings)
     require_changing(system)
@@ -231,10 +233,12 @@ def integrate(
     return outcome
 
 
-def _scheduled(system: System, times: np.ndarray, settings: Settings, hmax: float) -> np.ndarray:
+def _scheduled(
+    system: System, times: np.ndarray, settings: Settings, hmax: float, over: Over
+) -> np.ndarray:
     """Put stops and paces in place; the output times up to where a motion jumps."""
     clock, fine = Clock(system.kernels), not settings.tests_velocities(system.holonomic > 0)
-    table = timetable(system, clock, times, hmax, fine)
+    table = timetable(system, clock, times, hmax, fine, over)
     equal = settings.equal_steps(hmax)
     system.paces = Rows(contract.Pace, np.array(contract.NO_PACE) if equal else table.paces)
     system.hurried += table.overfull + (table.paced if equal else [])

@@ -247,7 +247,12 @@ class Session(SessionState):
         settings = self.chosen.settings
         self.history.return_to(self.before)  # what left its plane begins again
         in_blocks = self.journal is not None and not self.deck.delays
-        make_ready(system, times, apart, settings, self.audited, in_blocks)
+        try:
+            over = self.budget.over
+            make_ready(system, times, apart, settings, self.audited, in_blocks, over)
+        except Overspent:
+            system.start_record(times)
+            return Outcome.CPU_LIMIT
         if self.first_step is None and not self.history.stretches:
             self.first_step, self.late_setup = clock.process_time(), 0.0
         spill = partial(self.spill, system, times, wanted)

@@ -8,7 +8,7 @@ from outside, as interruptions are, and between the steps of analyses that are n
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from math import inf, nan
@@ -21,6 +21,7 @@ from adamslite.results.outcomes import Outcome
 
 if TYPE_CHECKING:
     from adamslite.equations.system import System
+    from adamslite.native.worker import Over
 
 POSITIVE = ("end", "error", "hmax", "cpu_limit")
 WHOLE = ("steps", "max_steps")
@@ -178,7 +179,7 @@ class Budget:
         return self.cpu is not None and clock.process_time() - self.began > self.cpu
 
     @property
-    def over(self) -> Callable[[], bool] | None:
+    def over(self) -> Over:
         """What says whether the CPU is spent, where it is limited."""
         return None if self.cpu is None else lambda: self.out_of_time
 
