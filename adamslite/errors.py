@@ -17,6 +17,10 @@ class RunFailed(RuntimeError):
     """A run that did not reach the requested state; the message gives the reason."""
 
 
+class OutOfMemory(RunFailed):
+    """A run that ended, with no room for what it had, for want of memory."""
+
+
 class FormatError(ValueError):
     """A file that is not what it should be; the message says file, line and why."""
 

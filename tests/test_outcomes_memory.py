@@ -14,13 +14,14 @@ from scenes import GROUND, done, run
 
 import adamslite as al
 from adamslite import Outcome, machine
+from adamslite.analyses.dynamics import history
 from adamslite.analyses.session import session, session_state
 from adamslite.analyses.setup import run_size
 from adamslite.analyses.setup.output_times import rows_of
-from adamslite.analyses.setup.run_options import size_of
+from adamslite.analyses.setup.run_options import size_of, within_memory
 from adamslite.cli.main import main
 from adamslite.elements.simulate import Simulate
-from adamslite.errors import RunFailed, UsageError
+from adamslite.errors import OutOfMemory, RunFailed, UsageError
 from adamslite.native import worker
 
 POINT = GROUND + "POINT_MASS/2, MASS=1, CM=2, VX=1\nMARKER/2, POINT_MASS=2\nEND\n"
@@ -150,7 +151,6 @@ def test_the_limit_holds_while_a_run_lasts_and_no_longer() -> None:
         np.zeros(100_000_000)
 
 
-@pytest.mark.slow
 @LINUX
 @pytest.mark.slow  # compiles the engine of a new process
 def test_a_compiler_without_memory_ends_by_name(tmp_path: Path) -> None:
@@ -211,6 +211,37 @@ def test_what_earlier_commands_gave_is_kept(
     assert results.outcome is outcome
     np.testing.assert_array_equal(results.time, whole.time[:11])
     np.testing.assert_array_equal(results.values, whole.values[:11])
+
+
+@pytest.mark.parametrize(
+    ("fault", "limit", "raised"),
+    [(MemoryError, None, OutOfMemory), (SystemError, "8GB", OutOfMemory),
+     (SystemError, None, SystemError)],
+)  # fmt: skip
+def test_where_memory_ends_before_a_row_nothing_is_said_to_be_kept(
+    fault: type[Exception], limit: str | None, raised: type[Exception]
+) -> None:
+    """Caches of Python that get no memory raise SystemError."""
+    with pytest.raises(raised) as found, within_memory(size_of(limit) if limit else None):
+        raise fault
+    assert "kept" not in str(found.value)
+
+
+def test_a_run_whose_rows_are_in_a_file_goes_on_in_more_memory(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any
+) -> None:
+    """A file with a state is left, and the command that goes on is named."""
+    monkeypatch.chdir(tmp_path)
+    Path("point.adm").write_text(POINT)
+    monkeypatch.setattr(history, "SETTLED", 0.0)
+    monkeypatch.setattr(session_state, "columns", failing(session_state.columns, 2))
+    words = ["solve", "point.adm", "--end", "1", "--steps", "10", "--quiet"]
+    assert main(words) == 4
+    assert not Path("point.csv").exists() and Path("point.csv.part").is_file()
+    assert "--resume point.csv.part --memory-limit SIZE` goes on" in capsys.readouterr().err
+    assert main(["solve", "--resume", "point.csv.part", "--quiet"]) == 0
+    resumed = Path("point.csv").read_bytes()
+    assert main(words) == 0 and Path("point.csv").read_bytes() == resumed
 
 
 def test_without_room_for_a_thread_nothing_is_run(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -4,6 +4,9 @@ from enum import Enum
 
 from adamslite.notation import shown
 
+#: Of a run that a limit ends early.
+KEPT = "; everything computed until then is kept"
+
 
 class Outcome(Enum):
     """The ways a run ends; the value says what happened and what to do about it.
@@ -82,18 +85,17 @@ class Outcome(Enum):
         "END. With --max-steps N it goes on for so many steps, however short."
     )
     STEP_LIMIT = (
-        "The run has taken as many steps as --max-steps allows; everything computed until then is "
-        "kept. Allow more steps, a larger ERROR or a longer HMAX, or request fewer outputs."
+        f"The run has taken as many steps as --max-steps allows{KEPT}. Allow more steps, a larger "
+        "ERROR or a longer HMAX, or request fewer outputs."
     )
     CPU_LIMIT = (
-        "The run has used the CPU time that --cpu-limit allows; everything computed until then is "
-        "kept. Allow more time, or let the run need less: an earlier END, fewer outputs, a larger "
-        "ERROR, another integrator (`adamslite chart` compares them)."
+        f"The run has used the CPU time that --cpu-limit allows{KEPT}. Allow more time, or let "
+        "the run need less: an earlier END, fewer outputs, a larger ERROR, another integrator "
+        "(`adamslite chart` compares them)."
     )
     MEMORY_LIMIT = (
-        "The run needs more memory than there is, or than --memory-limit allows; everything "
-        "computed until then is kept. Allow more, or request fewer outputs (fewer STEPS, a longer "
-        "DTOUT)."
+        f"The run needs more memory than there is, or than --memory-limit allows{KEPT}. Allow "
+        "more, or request fewer outputs (fewer STEPS, a longer DTOUT)."
     )
     NO_END_TIME = (
         "There is no end time. Give SIMULATE/DYNAMIC, END=..., STEPS=... in a command file "

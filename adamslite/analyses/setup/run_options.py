@@ -16,8 +16,8 @@ from numbers import Integral, Real
 from typing import TYPE_CHECKING, Any
 
 from adamslite.elements.integrator import Integrator
-from adamslite.errors import RunFailed, UsageError
-from adamslite.results.outcomes import Outcome
+from adamslite.errors import OutOfMemory, UsageError
+from adamslite.results.outcomes import KEPT, Outcome
 
 if TYPE_CHECKING:
     from adamslite.equations.system import System
@@ -225,5 +225,8 @@ def within_memory(limit: int | None) -> Iterator[None]:
                     f"--memory-limit {limit}: before the run the process takes {own:.0f} MB"
                 )
             yield
-    except MemoryError:
-        raise RunFailed(Outcome.MEMORY_LIMIT.sentence) from None
+    except (MemoryError, SystemError) as fault:
+        # Caches of Python that get no memory raise SystemError.
+        if limit is None and isinstance(fault, SystemError):
+            raise
+        raise OutOfMemory(Outcome.MEMORY_LIMIT.sentence.replace(KEPT, "")) from None

@@ -85,13 +85,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Solve and write; return the exit code."""
+    from adamslite.errors import OutOfMemory
+
     part, journal = _resumed(args), None
     try:
         scene, output, files, page, journal = _prepared(args, part)
         return _solved(args, scene, output, files, page, journal)
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, OutOfMemory) as fault:
         if journal:
-            _keep(journal)
+            _keep(journal, *(GOING_ON["MEMORY_LIMIT"] if isinstance(fault, OutOfMemory) else ()))
         raise
     finally:
         for each in (part, journal and journal.part):
