@@ -332,15 +332,19 @@ def test_a_description_of_others_ends_in_a_sentence(case: str) -> None:
     assert obeyed(str(told_of.value)) == []
 
 
-@pytest.mark.parametrize("line", ["[[cable]]", "[t{}]", "  [a.b{}.c]", "\t[1, {}],"])
+@pytest.mark.parametrize("line", ["[[cable]]", "[t{}]", "  [a.b{}.c]", "[['a,{}']] # ,"])
 def test_a_description_opens_a_largest_number_of_tables(line: str) -> None:
     """Those that are one too many are not given to the parser, whatever else is wrong with them."""
     lines = [line.format(n) for n in range(MOST_OPENED + 1)]
-    assert "more than 10000 lines that begin with a bracket" in excess_of("\n".join(lines))
+    assert "more than 10000 tables" in excess_of("\n".join(lines))
     assert not excess_of("\n".join([*lines[1:], "a = [1]", "# ["]))
     with pytest.raises(al.DeckError) as told_of:
         al.cable("\n".join(lines))
-    assert "begin with a bracket" in str(told_of.value)
+    assert "more than 10000 tables" in str(told_of.value)
+
+
+def test_a_law_may_have_any_number_of_rows() -> None:
+    assert not excess_of("law = [\n" + "  [0.5, 1.0],\n" * 2 * MOST_OPENED + "]\n")
 
 
 @pytest.mark.parametrize("case", DESCRIPTIONS)

@@ -9,9 +9,10 @@ Path = tuple[str | int, ...]
 #: A key of fifty parts: reading one takes a time that grows with the square of their number.
 LONG = re.compile(r"""(?<![\w."'-])(?:(?:"[^"\n]*+"|'[^'\n]*+'|[\w-]++)[ \t]*+\.[ \t]*+){50}""")
 
-OPENED = re.compile(r"^[ \t]*\[", re.MULTILINE)
+# A row of a list has a comma; that in a name is in quotes, that of a comment is behind a "#".
+OPENED = re.compile(r"""^[ \t]*\[(?![^"'#\n]*,)""", re.MULTILINE)
 MOST_OPENED = 10_000
-"""Lines that open a table or a row of a list."""
+"""Lines that open a table."""
 
 
 def has_long_key(text: str) -> bool:
@@ -27,7 +28,7 @@ def excess_of(text: str) -> str:
     if has_long_key(text):
         return "a key of more than 50 parts"
     many = any(number == MOST_OPENED for number, _ in enumerate(OPENED.finditer(text)))
-    return f"more than {MOST_OPENED} lines that begin with a bracket" if many else ""
+    return f"more than {MOST_OPENED} tables" if many else ""
 
 
 class Places:
