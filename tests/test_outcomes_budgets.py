@@ -166,7 +166,7 @@ def test_some_longer_steps_between_do_not_hide_that_it_creeps(
 ) -> None:
     """An explicit formula at the border of its stability tries longer steps now and then."""
     monkeypatch.setattr(run_options, "PATIENCE", 300_000)
-    results = ended_early(RINGS, DAYS, 10, integrator=method)
+    results = ended_early(RINGS, DAYS, 10, integrator=method, cpu_limit=30.0)
     assert results.outcome is Outcome.CREEPING and results.summary["steps"] < 400_000
 
 
