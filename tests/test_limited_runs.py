@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 from unfinished_runs import command, solved
-from unfinished_scenes import chain, pendulum, written
+from unfinished_scenes import chain, cranked, lowered, pendulum, written
 
 #: The flag that ends a run, that with which it goes on, and what is said.
 LIMITS = {
@@ -20,6 +20,7 @@ LIMITS = {
         ("--max-steps", "900000"),
         "--resume x.csv.part --max-steps N",
     ),
+    "few steps": (("--max-steps", "300"), ("--max-steps", "900000"), "--max-steps N"),
     "CPU": (("--cpu-limit", "0.3"), ("--cpu-limit", "600"), "for as much CPU once more"),
     "CPU once more": (("--cpu-limit", "0.5"), (), "or give another --cpu-limit"),
 }
@@ -40,19 +41,26 @@ def ends(folder: Path, code: int, error: str) -> bytes:
     raise AssertionError(error)
 
 
+#: The limit, the deck and its flags, by what runs.
+LIMITED = {
+    "RKF45": ("steps", pendulum(1200, 8000), "--integrator", "RKF45", "--error", "1e-7"),
+    "postures": ("few steps", cranked(30, 900)),
+    "VERLET": ("steps", chain(20, 400), "--integrator", "VERLET", "--error", "1e-4"),
+    "GSTIFF": ("CPU", pendulum(1200, 8000), "--integrator", "GSTIFF", "--error", "1e-7"),
+    "equilibria": ("CPU", lowered(40000)),
+    "RADAU": ("CPU once more", pendulum(1200, 8000), "--integrator", "RADAU", "--error", "1e-7"),
+}
+QUICK = ("RKF45", "postures")
+
+
 @pytest.mark.parametrize(
-    ("limit", "method"),
-    [
-        ("steps", "RKF45"),
-        pytest.param("steps", "VERLET", marks=pytest.mark.slow),
-        pytest.param("CPU", "GSTIFF", marks=pytest.mark.slow),
-        pytest.param("CPU once more", "RADAU", marks=pytest.mark.slow),
-    ],
+    "case",
+    [each if each in QUICK else pytest.param(each, marks=pytest.mark.slow) for each in LIMITED],
 )
-def test_a_run_at_its_limit_goes_on(tmp_path: Path, limit: str, method: str) -> None:
+def test_a_run_at_its_limit_goes_on(tmp_path: Path, case: str) -> None:
+    limit, text, *flags = LIMITED[case]
     few, more, said = LIMITS[limit]
-    deck = written(tmp_path, chain(20, 400) if method == "VERLET" else pendulum(1200, 8000))
-    flags = ("--integrator", method, "--error", "1e-4" if method == "VERLET" else "1e-7")
+    deck = written(tmp_path, text)
     code, error = run(tmp_path, deck.name, "-o", "x.csv", *flags, *few)
     assert code == 4 and said in error, error
     table = (tmp_path / "x.csv").read_text()

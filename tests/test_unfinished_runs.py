@@ -8,7 +8,10 @@ import pytest
 from unfinished_runs import killed, solved
 from unfinished_scenes import CASES, prepared
 
-QUICK = ("GSTIFF SI2", "HHT", "contacts by RADAU", "RKF45", "VERLET", "two analyses")
+QUICK = (
+    "GSTIFF SI2", "HHT", "contacts by RADAU", "RKF45", "VERLET", "two analyses",
+    "one equilibrium after the other",
+)  # fmt: skip
 
 
 @pytest.mark.parametrize("case", QUICK)

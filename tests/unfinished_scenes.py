@@ -224,6 +224,20 @@ def commanded() -> str:
     return between_equilibria(1, 2).partition("SIMULATE")[0] + "END\n"
 
 
+def lowered(steps: int) -> str:
+    """The chain, which moves for a while: then one equilibrium after the other, pushed at its end."""
+    push = "VFORCE/1, I=11, JFLOAT=99, RM=1, FX=0\\FY=SIN(TIME)\\FZ=COS(TIME)\n"
+    first = f"{push}MARKER/99, PART=1, FLOATING\nSIMULATE/DYNAMIC, END=1, STEPS=20\n"
+    return chain(60, steps).replace("SIMULATE/DYNAMIC", f"{first}SIMULATE/STATICS")
+
+
+def cranked(end: float, steps: int) -> str:
+    """The swing, both of whose joints follow time, and which then goes on by itself."""
+    driven = "MOTION/{n}, JOINT={n}, ROTATION, FUNCTION={n}*SIN(TIME)\n"
+    motions = driven.format(n=1) + driven.format(n=2)
+    return pendulum(end, steps).replace("SIMULATE/DYNAMIC", f"{motions}SIMULATE/KINEMATIC")
+
+
 def drawn_by(name: str, end: float, steps: int) -> str:
     """A deck that `adamslite cable` has written, for longer."""
     text = (find("decks") / "cables" / name).read_text()
@@ -278,6 +292,9 @@ CASES = {
     "two analyses": (rests(900, 5000), "--integrator", "GSTIFF", "--error", "1e-6"),
     "sensors": (sensed(300, 6000), "--integrator", "GSTIFF", "--error", "1e-6"),
     "equilibria between": (between_equilibria(1500, 8000), "--error", "1e-6"),
+    "one equilibrium after the other": (lowered(10000),),
+    "motions that decide everything": (cranked(60, 3000),),
+    "motions between output times": (cranked(3000, 300),),
     "joints that are drawn open": (assembled(700, 4000), "--error", "1e-6"),
     "confirmed": (spring(2000, 20000), "--error", "1e-6", "--confirm"),
     "NetCDF": (pendulum(400, 8000), "--integrator", "RKF45"),

@@ -31,7 +31,9 @@ from adamslite.analyses.initial.redundancy import badly_chosen, leave_out_redund
 from adamslite.analyses.session.session_state import SessionState
 from adamslite.analyses.session.setting_commands import changes_the_model, updated
 from adamslite.analyses.setup.output_times import largest_step, output_times
+from adamslite.analyses.statics.in_turn import in_turn
 from adamslite.analyses.statics.static import StaticSettings, at_rest
+from adamslite.analyses.statics.static import make_ready as make_ready_to_rest
 from adamslite.deck.redefinition import Redefinition
 from adamslite.equations.engine import engine
 from adamslite.integrators import contract
@@ -304,19 +306,18 @@ class Session(SessionState):
         if len(times) > 1:
             require_no_delay(self.kernels, "STATICS at several times", NO_PAST)
         self.delays.hold(self.kernels, self.time)
-        for time in times if len(times) > 1 else [self.time]:
-            self.outcome = self.budget.spent() or self.outcome
-            if self.outcome is not Outcome.DONE:
-                return
-            system.settings.t = time
-            system.start_record(np.array([time]))
-            pivoted = partial(self.renumbered, system, True)
-            self.outcome, self.ways_to_fall = at_rest(system, self.statics, pivoted, self.budget)
-            self.time = float(time)
-            system.report.t = time
-            if self.outcome is Outcome.DONE:
-                system.run(RECORD_AT_REST, 0)
-                self.keep(system, np.array([time]), True)
+        times = times if len(times) > 1 else np.array([self.time])
+        pivoted = partial(self.renumbered, system, True)
+
+        def reach(row: int) -> Outcome:
+            system.settings.t = times[row]
+            outcome = at_rest(system, self.statics, pivoted, self.budget)
+            system.report.t = times[row]
+            return outcome
+
+        make_ready_to_rest(system, self.statics)
+        self.outcome = in_turn(self, times, reach, RECORD_AT_REST, True)
+        self.ways_to_fall = int(system.report.ways_to_fall)
 
     def _kinematics(self, times: np.ndarray) -> None:
         system = self.system
@@ -324,11 +325,16 @@ class Session(SessionState):
         if system.dof > 0:
             self.outcome = Outcome.NOT_KINEMATIC
             return
-        from adamslite.analyses.statics.kinematic import run_kinematic
+        from adamslite.analyses.statics.kinematic import reached
 
-        self.outcome, self.unclosed = run_kinematic(system, times, self.budget)
-        self.time = float(system.report.t)
-        self.keep(system, times, False)
+        def reach(row: int) -> Outcome:
+            outcome, self.unclosed = reached(system, times, row, self.budget)
+            return outcome
+
+        try:
+            self.outcome = in_turn(self, times, reach, RECORD, False)
+        finally:
+            self.budget.settle(system)
 
     def _has_rates(self) -> bool:
         """Whether TIME alone does not determine a posture: states, MOTIONs that give speeds."""

@@ -273,7 +273,9 @@ class SessionState:
         else:
             self.history.append(piece, static, self.began_static)
 
-    def spill(self, system: System, times: np.ndarray, wanted: np.ndarray) -> None:
+    def spill(
+        self, system: System, times: np.ndarray, wanted: np.ndarray, static: bool = False
+    ) -> None:
         """Keep the records of a full block, whose room is for the next one; where a step was taken
         back behind its first record, take those away that were kept too early.
         """
@@ -281,7 +283,7 @@ class SessionState:
         if block.row < block.first:
             self._take_back(block.row, wanted[: block.first])
         else:
-            self._add(system, times, False, wanted)
+            self._add(system, times, static, wanted)
             system.record = np.zeros_like(system.record)  # the history may keep the old one
         block.first = system.count.records = block.row
 

@@ -30,45 +30,28 @@ if TYPE_CHECKING:
 MOST_TURNED = 1.5
 
 
-def run_kinematic(
-    system: System, times: np.ndarray, budget: Budget
+def reached(
+    system: System, times: np.ndarray, row: int, budget: Budget
 ) -> tuple[Outcome, Unclosed | None]:
-    """Solve at each of ``times`` (nt,) and fill ``system.record``."""
-    system.start_record(times)
-    try:
-        return _in_turn(system, times, budget)
-    except KeyboardInterrupt:
-        return Outcome.INTERRUPTED, None
-    finally:
-        _drop_unfinished(system, times)
-        budget.settle(system)
+    """Go to the time of a row, one of ``times`` (nt,), from that of the row before; how that ended.
 
-
-def _drop_unfinished(system: System, times: np.ndarray) -> None:
-    """Leave out a last record of a time on the way to an output time."""
-    last = int(system.count.records) - 1
-    if last >= 0 and system.record[last * (system.nw + system.sizes.n_out)] != times[last]:
-        system.count.records = last
-
-
-def _in_turn(system: System, times: np.ndarray, budget: Budget) -> tuple[Outcome, Unclosed | None]:
-    at = float(times[0])
-    for row, time in enumerate(times):
-        while True:
-            if over := budget.spent(int(system.count.steps)):
-                return over, None
-            at = _next_time(system, at, float(time))
-            unclosed = _solve(system, at)
-            if unclosed:
-                return unclosed.outcome, unclosed
-            if system.run(ACCELERATIONS) != contract.DONE:
-                return without_accelerations(system), None
-            # What is recorded on the way is written over.
-            system.run(RECORD, row)
-            system.count.steps += 1 if row else 0
-            if at == time:
-                break
-    return Outcome.DONE, None
+    What is recorded on the way, for the angles that it counts, is written over.
+    """
+    at, end = float(times[max(0, row - 1)]), float(times[row])
+    while True:
+        at = _next_time(system, at, end)
+        unclosed = _solve(system, at)
+        if unclosed:
+            return unclosed.outcome, unclosed
+        if system.run(ACCELERATIONS) != contract.DONE:
+            return without_accelerations(system), None
+        system.count.steps += 1 if row else 0
+        if at == end:
+            return Outcome.DONE, None
+        system.run(RECORD, row)
+        system.count.records = row
+        if over := budget.spent(int(system.count.steps)):
+            return over, None
 
 
 def _next_time(system: System, start: float, end: float) -> float:

@@ -59,8 +59,8 @@ class StaticSettings:
 
 def at_rest(
     system: System, settings: StaticSettings, pivoted: Callable[[], System], budget: Budget
-) -> tuple[Outcome, int]:
-    """Move ``system`` to an equilibrium; with the number of ways in which it is unstable.
+) -> Outcome:
+    """Move ``system`` to an equilibrium; its report has the number of ways in which it is unstable.
 
     What is slender and bends far is thrown about by increments of ALIMIT: a turn by the angle a
     stretches a link by a^2/2.  Where the search fails, it is repeated with short ones.
@@ -78,17 +78,18 @@ def at_rest(
     for limits in (settings, short)[: 1 + bool(len(system.mass))]:
         outcome = run_static(system, limits, budget)
         if outcome is not Outcome.NO_EQUILIBRIUM:
-            return outcome, system.report.ways_to_fall
+            return outcome
         put_back(start)
     if system.elimination.pivoting or system.nz > PIVOTING:
-        return outcome, system.report.ways_to_fall
+        return outcome
     # Where pivots were to blame this one settles within a few iterations; its relaxation is no
     # other than before.
     spare = pivoted()
     outcome = run_static(spare, settings, budget, REPEATED)
     system.adopt(spare)
     system.count.add(spare.count)
-    return outcome, spare.report.ways_to_fall
+    system.report.ways_to_fall = spare.report.ways_to_fall
+    return outcome
 
 
 def run_static(
@@ -106,7 +107,7 @@ def run_static(
     return Outcome.DONE if outcome == contract.DONE else Outcome.NO_EQUILIBRIUM
 
 
-def make_ready(system: System, settings: StaticSettings, cost: float) -> None:
+def make_ready(system: System, settings: StaticSettings, cost: float = ELIMINATED) -> None:
     """Put the numbers of a search in place, whose relaxation may cost so much."""
     system.make_room(control=Control.slots)
     C = Control(system.control)
