@@ -225,7 +225,7 @@ def commanded() -> str:
 
 
 def lowered(steps: int) -> str:
-    """The chain, which moves for a while: then one equilibrium after the other, pushed at its end."""
+    """The chain, which moves for a while, and then its equilibria, pushed to and fro at its end."""
     push = "VFORCE/1, I=11, JFLOAT=99, RM=1, FX=0\\FY=SIN(TIME)\\FZ=COS(TIME)\n"
     first = f"{push}MARKER/99, PART=1, FLOATING\nSIMULATE/DYNAMIC, END=1, STEPS=20\n"
     return chain(60, steps).replace("SIMULATE/DYNAMIC", f"{first}SIMULATE/STATICS")
