@@ -292,7 +292,7 @@ CASES = {
     "two analyses": (rests(900, 5000), "--integrator", "GSTIFF", "--error", "1e-6"),
     "sensors": (sensed(300, 6000), "--integrator", "GSTIFF", "--error", "1e-6"),
     "equilibria between": (between_equilibria(1500, 8000), "--error", "1e-6"),
-    "one equilibrium after the other": (lowered(10000),),
+    "one equilibrium after the other": (lowered(4000),),
     "motions that decide everything": (cranked(60, 3000),),
     "motions between output times": (cranked(3000, 300),),
     "joints that are drawn open": (assembled(700, 4000), "--error", "1e-6"),
