@@ -28,10 +28,10 @@ from adamslite.analyses.dynamics.planar_reduction import in_its_plane
 from adamslite.analyses.dynamics.sensors import AT_TIMES, require_none
 from adamslite.analyses.initial.conditions import consistent_velocities, without_accelerations
 from adamslite.analyses.initial.redundancy import badly_chosen, leave_out_redundant
+from adamslite.analyses.session.in_turn import in_turn
 from adamslite.analyses.session.session_state import SessionState
 from adamslite.analyses.session.setting_commands import changes_the_model, updated
 from adamslite.analyses.setup.output_times import largest_step, output_times
-from adamslite.analyses.statics.in_turn import in_turn
 from adamslite.analyses.statics.static import StaticSettings, at_rest
 from adamslite.analyses.statics.static import make_ready as make_ready_to_rest
 from adamslite.deck.redefinition import Redefinition

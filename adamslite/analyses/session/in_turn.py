@@ -19,14 +19,14 @@ from adamslite.results.outcomes import Outcome
 
 if TYPE_CHECKING:
     from adamslite.analyses.dynamics.history import Outlet
-    from adamslite.analyses.session.session import Session
+    from adamslite.analyses.session.session_state import SessionState
 
 #: Brings the system of a session to the output time of this number; how that has ended.
 Reach = Callable[[int], Outcome]
 
 
 def in_turn(
-    session: Session, times: np.ndarray, reach: Reach, operation: int, at_rest: bool
+    session: SessionState, times: np.ndarray, reach: Reach, operation: int, at_rest: bool
 ) -> Outcome:
     """Reach each of ``times`` (nt,) and add a row for it, which ``operation`` writes, to the
     history; ``at_rest``: they are equilibria.
@@ -55,7 +55,7 @@ def in_turn(
 
 
 def _rest(
-    session: Session, rows: int, reach: Reach, operation: int, outlet: Outlet | None
+    session: SessionState, rows: int, reach: Reach, operation: int, outlet: Outlet | None
 ) -> Outcome:
     """Reach the output times from that behind the last row on."""
     system = session.system
