@@ -146,6 +146,17 @@ def test_columns_are_counted_in_units_of_utf_16(client: Client) -> None:
     assert told["range"]["start"]["line"] == 7
 
 
+@pytest.mark.parametrize("name", ["two%20words", "d%C3%A9j%C3%A0", "c%3A/Users/deck", "50%25"])
+def test_an_editor_may_write_letters_of_a_name_as_numbers(client: Client, name: str) -> None:
+    """As VS Code does with blanks, and with the colon of a drive of Windows."""
+    uri = f"file:///nowhere/{name}.adm"
+    (told,) = client.open(uri, DECK.replace("REVOLUTE", "REVOLVE"))
+    assert told["code"] == "unknown-argument"
+    client.edit(uri, 2, (6, 0, 7, 0, ""))
+    assert client.messages(uri, 2) == []
+    assert client.at("hover", uri, 4, 2)["contents"]["value"].startswith("## PART")
+
+
 def test_a_command_file_knows_its_deck(client: Client, tmp_path: Path) -> None:
     (tmp_path / "run.adm").write_text(DECK, encoding="utf-8")
     deck, commands = ((tmp_path / f"run.{suffix}").as_uri() for suffix in ("adm", "acf"))

@@ -17,6 +17,7 @@ from adamslite.editing.positions import changed_lines
 from adamslite.editing.rename import rename
 from adamslite.editing.rereading import Use
 from adamslite.editing.server import COMMAND_SUFFIXES, Server
+from adamslite.editing.stream import serve
 from adamslite.editing.text_file import place_of
 from adamslite.errors import UsageError
 
@@ -51,7 +52,7 @@ def start() -> None:
     for method, handler in FEATURES.items():
         options = TRIGGERS if handler is completed else None
         server.feature(method, options)(handler)
-    server.start_io()
+    serve(server)
 
 
 # ---- texts -------------------------------------------------------------------------------------

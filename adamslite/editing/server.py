@@ -7,11 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from urllib.parse import unquote
 
 from lsprotocol import types as lsp
 from pygls import uris
 from pygls.exceptions import JsonRpcInvalidParams
 from pygls.lsp.server import LanguageServer
+from pygls.workspace import TextDocument
 
 from adamslite import __version__
 from adamslite.editing.document import Content, Document
@@ -31,16 +33,31 @@ DECK_SUFFIXES = (".adm", ".ADM")
 COMMAND_SUFFIXES = (".acf", ".ACF")
 
 
-def _is_beside(path: Path) -> bool:
+SUFFIXES = (*DECK_SUFFIXES, *COMMAND_SUFFIXES)
+
+
+def _path(uri: str) -> Path | None:
+    """The file that a URI names; None for what is no name of a file."""
+    try:
+        found = uris.to_fs_path(uri)
+    except ValueError:
+        return None
+    return Path(found) if found else None
+
+
+def _is_beside(path: Path | None) -> bool:
     """Whether a file is there, and is no link to one elsewhere, which would be quoted."""
-    return path.is_file() and not leads_out(path)
+    try:
+        return path is not None and path.is_file() and not leads_out(path)
+    except (OSError, ValueError):  # a name that no file can have
+        return False
 
 
 def _text_of(document: Document, uri: str) -> str:
     """The text of a file that is not open."""
     try:
         return read_text(Path(document.file)).text
-    except (OSError, ValueError) as fault:  # no file at all, or no name of one
+    except (OSError, ValueError) as fault:
         raise JsonRpcInvalidParams(f"{uri} is not open and cannot be read: {fault}") from None
 
 
@@ -53,11 +70,12 @@ class Server(LanguageServer):
 
     def content(self, uri: str) -> Content:
         """A text as it is now; a command file with its deck."""
-        open_one = self.workspace.text_documents.get(uri)
+        open_one = self.opened(uri)
+        if open_one is None and not self._is_of_family(uri):
+            raise JsonRpcInvalidParams(f"{uri} is not open")
         version, document = self.documents.get(uri, (-1, None))
         if document is None:
-            path = uris.to_fs_path(uri)
-            document = Document(Path(path) if path else uri, place_of(uri))
+            document = Document(_path(uri) or uri, place_of(uri))
         if open_one is None:
             document.update(_text_of(document, uri), self._deck_of(uri, document))
         elif version != open_one.version or document.place == "command":
@@ -65,9 +83,14 @@ class Server(LanguageServer):
         self.documents[uri] = (open_one.version if open_one else None, document)
         return document.content
 
+    def opened(self, uri: str) -> TextDocument | None:
+        """The text that is open under a URI; pygls 2.1 has them without escapes such as %20."""
+        texts = self.workspace.text_documents
+        return texts.get(uri) or texts.get(unquote(uri))
+
     def version_of(self, uri: str) -> int | None:
         """The version of a text that is open; None of others."""
-        found = self.workspace.text_documents.get(uri)
+        found = self.opened(uri)
         return found.version if found else None
 
     def _deck_of(self, uri: str, document: Document) -> Content | None:
@@ -79,20 +102,26 @@ class Server(LanguageServer):
         stem = uri.rpartition(".")[0]
         found = []
         for other in (stem + suffix for suffix in suffixes):
-            path = uris.to_fs_path(other)
-            if other in self.workspace.text_documents or (path and _is_beside(Path(path))):
+            if self.opened(other) or _is_beside(_path(other)):
                 found.append(other)
         return found
 
+    def _is_of_family(self, uri: str) -> bool:
+        """Whether a text that is not open lies beside one that is: no other file is read."""
+        stem, _, suffix = uri.rpartition(".")
+        others = (stem + each for each in SUFFIXES)
+        is_one = f".{suffix}" in SUFFIXES and _is_beside(_path(uri))
+        return is_one and any(map(self.opened, others))
+
     def family(self, uri: str) -> dict[str, Content]:
         """A deck and its command file, with the one that is asked for."""
-        others = self.beside(uri, (*DECK_SUFFIXES, *COMMAND_SUFFIXES))
+        others = self.beside(uri, SUFFIXES)
         known = {uri: self.content(uri)}
         return known | {other: self.content(other) for other in others if other != uri}
 
     def publish(self, uri: str) -> None:
         """Send the messages about a text."""
-        open_one = self.workspace.text_documents.get(uri)
+        open_one = self.opened(uri)
         if open_one is None:
             return
         content = self.content(uri)

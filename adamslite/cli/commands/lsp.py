@@ -31,6 +31,10 @@ def run(args: argparse.Namespace) -> int:
     faults.setFormatter(_OneLine())
     logging.getLogger("pygls").addHandler(faults)
     logging.getLogger("pygls").propagate = False
+    # Of parameters that are wrong the stream of messages says so.
+    logging.getLogger("pygls.protocol.json_rpc").addFilter(
+        lambda record: not record.msg.startswith("Unable to deserialize")
+    )
     start()
     return DONE
 
