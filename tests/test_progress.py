@@ -9,7 +9,9 @@ from typing import Any
 
 import pytest
 from progress_scenes import Clock, Stream, state
+from unfinished_scenes import cranked, lowered
 
+from adamslite import simulate
 from adamslite.errors import UsageError
 from adamslite.progress import Progress, SentenceProgress, TalkingProgress, progress_of
 from adamslite.progress.meter import Meter
@@ -188,6 +190,17 @@ def test_python_chooses() -> None:
     told: list[tuple[float, float]] = []
     progress_of(lambda time, end: told.append((time, end))).watch(state(0.5))
     assert told == [(0.5, 2.0)]
+
+
+@pytest.mark.parametrize("text", [lowered(10), cranked(60, 10)], ids=["equilibria", "postures"])
+def test_output_times_that_are_solved_in_turn_are_shown(
+    text: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """All but the last, which the end of the run reports."""
+    monkeypatch.setattr("adamslite.progress.analysis.INTERVAL", 0.0)
+    told: list[tuple[float, float]] = []
+    times = simulate(text, progress=lambda time, end: told.append((time, end))).time
+    assert {(time, 60.0) for time in times[times > 1.0][:-1]} <= set(told)
 
 
 class Shell(SimpleNamespace):

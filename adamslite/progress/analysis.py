@@ -25,7 +25,7 @@ class AnalysisProgress(Progress):
     start, end : float
         Of the analysis [time].
     steps : function that returns an int
-        Steps of the runs that are over.
+        Steps of the runs that are over; none by default.
     now : function
         The clock [s].
     """
@@ -35,7 +35,7 @@ class AnalysisProgress(Progress):
         progress: Progress,
         start: float,
         end: float,
-        steps: Callable[[], int],
+        steps: Callable[[], int] = int,
         now: Callable[[], float] = clock.monotonic,
     ) -> None:
         self._progress, self._start, self._end, self._steps = progress, start, end, steps

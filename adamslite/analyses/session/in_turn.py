@@ -15,11 +15,13 @@ import numpy as np
 
 from adamslite.analyses.dynamics import dynamic
 from adamslite.integrators import contract
+from adamslite.progress import AnalysisProgress, RunState
 from adamslite.results.outcomes import Outcome
 
 if TYPE_CHECKING:
     from adamslite.analyses.dynamics.history import Outlet
     from adamslite.analyses.session.session_state import SessionState
+    from adamslite.progress import Progress
 
 #: Brings the system of a session to the output time of this number; how that has ended.
 Reach = Callable[[int], Outcome]
@@ -44,7 +46,7 @@ def in_turn(
     try:
         if outlet and outlet.begin() == contract.DONE:
             return Outcome.DONE
-        outcome = _rest(session, len(times), reach, operation, outlet)
+        outcome = _rest(session, times, reach, operation, outlet)
         if outlet and outcome is Outcome.DONE:
             outlet.end(contract.DONE, final=True)
         return outcome
@@ -55,12 +57,14 @@ def in_turn(
 
 
 def _rest(
-    session: SessionState, rows: int, reach: Reach, operation: int, outlet: Outlet | None
+    session: SessionState, times: np.ndarray, reach: Reach, operation: int, outlet: Outlet | None
 ) -> Outcome:
     """Reach the output times from that behind the last row on."""
-    system = session.system
+    system, progress = session.system, None
     block, count = system.block, system.count
-    for row in range(int(count.records), rows):
+    if session.progress:
+        progress = AnalysisProgress(session.progress, float(times[0]), float(times[-1]))
+    for row in range(int(count.records), len(times)):
         over = session.budget.spent(int(count.steps))
         if over:
             if outlet and outlet.journal.part:
@@ -75,6 +79,14 @@ def _rest(
         system.run(operation, row)
         if outlet and outlet.journal.is_due():
             outlet.take(contract.HELD)
-        if outlet and session.progress and (note := outlet.journal.note()):
-            session.progress.say(note)
+        if progress:
+            _show(progress, times, row, outlet)
     return Outcome.DONE
+
+
+def _show(progress: Progress, times: np.ndarray, row: int, outlet: Outlet | None) -> None:
+    """How far it is."""
+    start, time, end = (float(times[k]) for k in (0, row, -1))
+    progress.watch(RunState(time=time, start=start, end=end, steps=row))
+    if outlet and (note := outlet.journal.note()):
+        progress.say(note)
