@@ -156,6 +156,24 @@ def test_a_body_that_nothing_holds_has_no_equilibrium() -> None:
     assert results.outcome is al.Outcome.NO_EQUILIBRIUM
 
 
+def test_a_push_that_nothing_balances_ends_a_series_of_equilibria() -> None:
+    """sin x = t/10 has no root beyond t = 10: nothing of an earlier time takes its place."""
+    found = al.simulate("""a mass in a wave, pushed ever harder
+PART/1, GROUND
+MARKER/1, PART=1
+POINT_MASS/2, MASS=1, QG=0.1,0,0, CM=2
+MARKER/2, POINT_MASS=2
+VFORCE/1, I=2, JFLOAT=3, RM=1, FX=-SIN(DX(2))+TIME/10\\FY=-DY(2)\\FZ=-DZ(2)
+MARKER/3, PART=1, FLOATING
+SIMULATE/STATICS, END=12, STEPS=4
+END
+""")
+    assert found.outcome is al.Outcome.NO_EQUILIBRIUM and "at t = 12," in found.message
+    np.testing.assert_allclose(found.time, (0.0, 3.0, 6.0, 9.0))
+    x = found["POINT_MASS/2.x"]  # to IMBALANCE over the least stiffness, cos x = 0.44
+    np.testing.assert_allclose(x, np.arcsin(found.time / 10.0), rtol=0, atol=1e-4 / 0.43)
+
+
 def test_a_search_of_few_unknowns_ends_by_ctrl_c(monkeypatch) -> None:
     al.simulate(al.read(LOOSE.format(most=25)))  # nothing is compiled below
 

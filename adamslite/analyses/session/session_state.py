@@ -240,6 +240,7 @@ class SessionState:
         """
         other = self.numbered(pivoting, self.chosen.settings.form)
         other.adopt(system)
+        other.settings.t = system.settings.t  # which is ahead of the session's between two outputs
         other.drop(system.elimination.dropped)
         return other
 
