@@ -209,6 +209,59 @@ def test_angles_of_parts_and_other_values_of_a_deck_that_was_varied():
         assert found.curve("PART/2.psi", "PART/2.WZ") == pytest.approx(found.time, abs=1e-9)
 
 
+#: Two parts turn about z at 2 and 1 rad/s, and one number pushes both, the first one by a share.
+PUSHED = """two parts that one number turns
+PART/1, GROUND
+MARKER/1, PART=1
+PART/2, MASS=1, CM=2, IP=1,1,1, WZ=2
+MARKER/2, PART=2
+SFORCE/2, ROTATION, I=2, J=1, ACTIONONLY, FUNCTION={share}*VARVAL(1)
+PART/3, MASS=1, CM=3, IP=1,1,1, WZ=1, QG=5,0,0
+MARKER/3, PART=3
+SFORCE/3, ROTATION, I=3, J=1, ACTIONONLY, FUNCTION=VARVAL(1)
+VARIABLE/1, FUNCTION=1
+END
+"""
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("share", ["1", "1E-9", "1E-13", "1E-313"])
+def test_angles_of_a_part_that_hardly_turns_beside_one_that_does(share):
+    """psi'' is the push: d psi is the share of t^2/2, of whatever size, subnormal numbers too."""
+    found = al.sensitivities(
+        PUSHED.format(share=share), ["VARIABLE/1.FUNCTION"], ["PART/2.psi", "PART/3.psi"],
+        end=1.0, steps=4, error=1e-8,
+    )  # fmt: skip
+    first, second = (found.curve(f"PART/{k}.psi", "VARIABLE/1.FUNCTION") for k in (2, 3))
+    assert second == pytest.approx(found.time**2 / 2, rel=1e-6)
+    assert first == pytest.approx(float(share) * found.time**2 / 2, rel=1e-4, abs=0.0)
+
+
+@pytest.mark.filterwarnings("error")
+def test_angles_of_parts_that_a_push_reaches_later():
+    """What a shaft of soft springs hands on becomes the least number there is, and then none."""
+    parts = "".join(
+        f"PART/{k}, MASS=1, CM={k}, IP=1,1,1, QG={k},0,0, REULER=0.5,0,0\nMARKER/{k}, PART={k}\n"
+        for k in range(2, 42)
+    )
+    springs = "".join(
+        f"SFORCE/{k}, ROTATION, I={k}, J={k - 1}, FUNCTION=-1E-6*AZ({k},{k - 1})\n"
+        for k in range(3, 42)
+    )
+    text = (
+        f"a shaft\nPART/1, GROUND\nMARKER/1, PART=1\n{parts}{springs}"
+        "SFORCE/2, ROTATION, I=2, J=1, ACTIONONLY, FUNCTION=VARVAL(1)\n"
+        "VARIABLE/1, FUNCTION=1\nEND\n"
+    )
+    names = [f"PART/{k}.psi" for k in range(2, 42)]
+    found = al.sensitivities(text, ["VARIABLE/1.FUNCTION"], names, end=1.0, steps=20)
+    ends = np.array([found.curve(name, "VARIABLE/1.FUNCTION")[-1] for name in names])
+    assert ends[0] == pytest.approx(0.5, rel=1e-3)
+    reached = np.count_nonzero(ends)
+    assert (np.diff(ends[:reached]) < 0.0).all() and (ends[:reached] > 0.0).all()
+    assert 0.0 < ends[reached - 1] < np.finfo(float).tiny
+
+
 def test_the_command_prints_a_table_and_writes_histories(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "spring.adm").write_text(SPRING)

@@ -14,6 +14,7 @@ from adamslite.analyses.setup.subject import deck_of, kernels_of, prepared_for
 from adamslite.analyses.simulation import explained
 from adamslite.equations.result_columns import columns
 from adamslite.errors import RunFailed, UsageError
+from adamslite.kernels.code.workspace import ATTITUDE
 from adamslite.kernels.groups import Kernels
 from adamslite.language.diagnostics import DeckError
 from adamslite.model.model import PART
@@ -21,6 +22,7 @@ from adamslite.model.reduction import MERGED
 from adamslite.native.worker import Overspent
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
+from adamslite.sensitivity.adjoint_columns import ANGLES
 from adamslite.sensitivity.directions import SHARE, STENCIL, Direction, Snapshot, direction
 from adamslite.sensitivity.measures import asked, slope
 from adamslite.sensitivity.recipes import Known, alone
@@ -328,22 +330,29 @@ def _gathered(
 
 
 def _columns(system: System, record: np.ndarray, slopes: np.ndarray) -> np.ndarray:
-    """Derivatives of the columns (nt, nc) from those of the record: all but angles are linear."""
+    """Derivatives of the columns (nt, nc) from those of the record: all but angles are linear.
+
+    A part turns by ``TURN`` to both sides, however little its number turns it: d(angle) is the
+    difference of the ends, times |dR| / (2 TURN).  A division by |dR| alone stays finite down to
+    the least number, and a part that hardly turns loses no digits beside one that does.
+    """
     names, found = columns(system, slopes)
-    found = found.copy()
-    turned, largest = np.zeros_like(slopes), np.zeros(len(slopes))
+    at = {name: k for k, name in enumerate(names)}
+    found, turned = found.copy(), np.zeros_like(slopes)
+    angles: list[int] = []
+    sizes: list[np.ndarray] = []
     for b, body in enumerate(system.model.bodies):
-        if body.width == PART:
-            at = slice((o := system.w_at["BODY", b] + 15), o + 9)
-            turned[:, at] = slopes[:, at]
-            largest = np.maximum(largest, np.abs(slopes[:, at]).max(axis=1))
-    angles = [k for k, name in enumerate(names) if name.endswith((".psi", ".theta", ".phi"))
-              and name.startswith("PART/")]  # fmt: skip
-    if not angles or not largest.any():
-        found[:, angles] = 0.0
-        return found
-    step = (TURN / np.where(largest > 0.0, largest, 1.0))[:, None]
-    ends = [columns(system, record + sign * step * turned)[1][:, angles] for sign in (1.0, -1.0)]
-    gap = ends[0] - ends[1]
-    found[:, angles] = (gap - 2.0 * np.pi * np.round(gap / (2.0 * np.pi))) / (2.0 * step)
+        if body.width != PART:
+            continue
+        place = slice((o := system.w_at["BODY", b] + ATTITUDE), o + 9)
+        slope = slopes[:, place]
+        size = np.abs(slope).max(axis=1, keepdims=True)
+        turned[:, place] = TURN * np.divide(slope, size, out=np.zeros_like(slope), where=size > 0.0)
+        own = [at[name] for each in ANGLES if (name := body.statement.label + each) in at]
+        angles, sizes = angles + own, [*sizes, *[size] * len(own)]
+    if angles:
+        ends = [columns(system, record + sign * turned)[1][:, angles] for sign in (1.0, -1.0)]
+        gap = ends[0] - ends[1]
+        rest = (gap - 2.0 * np.pi * np.round(gap / (2.0 * np.pi))) / (2.0 * TURN)
+        found[:, angles] = rest * np.concatenate(sizes, axis=1)
     return found
