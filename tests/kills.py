@@ -8,7 +8,8 @@ so that some are before there is a file to go on with, which do not count, and s
 are written; every third kill is in the middle of a write to the file of the run.  Resumed runs are
 killed again, of which some are killed again.  All files that a run writes are compared.  A line for
 each case says how many kills there were, and what was left; the exit code is 1 when bytes differed
-anywhere.  Sweeps and fits are killed and given again.
+anywhere.  Sweeps and fits are killed and given again: at no instant is their file anything but
+whole, and no process is left.
 """
 
 from __future__ import annotations
@@ -27,11 +28,15 @@ from pathlib import Path
 from unfinished_runs import PATIENCE, command
 from unfinished_scenes import CASES, SUFFIXES, pendulum, prepared, written
 
+from adamslite import load_sweep
+
 #: Where a kill met a run.
 RUNNING, IN_WRITE, WRITING, EARLY, LATE = "running", "in state", "writing", "early", "late"
 SHOWN = (RUNNING, IN_WRITE, WRITING, EARLY, LATE, "resumed", "again", "drafts", "wrong")
 #: Share of the kills that are in a write to the file of the run; about so many writes a second.
 IN_WRITES, WRITES = 0.3, 60.0
+#: Workers of a command that was killed have ended after this time [s].
+AFTERWARDS = 30.0
 
 
 class Killing:
@@ -122,7 +127,10 @@ class Killing:
             error = process.communicate(timeout=after)[1]
         except subprocess.TimeoutExpired:
             process.kill()
-            error = process.communicate()[1]
+            try:  # its messages end when its workers have ended
+                error = process.communicate(timeout=AFTERWARDS)[1]
+            except subprocess.TimeoutExpired:
+                raise AssertionError("processes of a killed command go on") from None
         return process.returncode, error
 
     def _finished(self, words: Sequence[str]) -> None:
@@ -152,6 +160,10 @@ sys.exit(main())
 """
 
 
+#: What is in the file of a deck before it is fitted.
+EARLIER = b"an earlier deck\n"
+
+
 class Repeating(Killing):
     """A command that is killed and given again until it comes to its end."""
 
@@ -170,24 +182,55 @@ class Repeating(Killing):
             self._finished(self.words)
             self.takes = time.monotonic() - began
         self.whole = self._contents()
+        self.runs = load_sweep(self.output) if self.output.suffix == ".nc" else None
 
     def _once(self) -> None:
-        """One file, over some kills; that of an earlier time is whole whatever happens."""
+        """One file, over some kills; it is whole whatever happens, and loses nothing."""
         self._clear()
-        old = self.chance.random() < 0.5 and self.output.suffix == ".adm"
-        if old:
-            self.output.write_bytes(self.whole[self.output.name])
+        if self.runs is None and self.chance.random() < 0.5:
+            self.output.write_bytes(EARLIER)
         while self.chance.random() < 0.8:
-            code, error = self._ended(self.words, self.chance.uniform(0.0, self.takes))
+            before = self._contents()
+            drafts = self._drafts()
+            after = self.chance.uniform(0.1 * self.takes, 1.05 * self.takes)
+            code, error = self._ended(self.words, after)
             if code > 0:
                 raise AssertionError(error)
-            drafts = [*self.folder.glob(".*.part")]
-            self.counts[LATE if code == 0 else WRITING if drafts else RUNNING] += 1
-            same = not old or self._contents()[self.output.name] == self.whole[self.output.name]
-            self.counts["wrong"] += not same
+            began = self.runs is None or self.output.exists()
+            meets = WRITING if self._drafts() > drafts else RUNNING if began else EARLY
+            self.counts[LATE if code == 0 else meets] += 1
+            self.counts["wrong"] += not self._keeps(before)
         self.counts["resumed"] += 1
         self._finished(self.words)
         self._compare()
+
+    def _drafts(self) -> int:
+        return len([*self.folder.glob(".*.part")])
+
+    def _keeps(self, before: dict[str, bytes]) -> bool:
+        """Whether the file is what it was before, or what there will be; of a sweep, some runs with
+        their numbers, no fewer than before, and nothing else is touched.
+        """
+        after, name = self._contents(), self.output.name
+        if any(after.get(each) != before[each] for each in self.read):
+            return False
+        if self.runs is None:
+            return after.get(name) in (before.get(name), self.whole[name])
+        if name not in after:
+            return name not in before
+        found, done = load_sweep(self.output), self._done(before.get(name))
+        there = [k for k, outcome in enumerate(found.outcomes) if outcome]
+        same = (found.measures[there] == self.runs.measures[there]).all()
+        return bool(same) and done <= set(there)
+
+    def _done(self, content: bytes | None) -> set[int]:
+        """The runs that are in a file of a sweep."""
+        if content is None:
+            return set()
+        with tempfile.NamedTemporaryFile(suffix=".nc") as file:
+            file.write(content)
+            file.flush()
+            return {k for k, outcome in enumerate(load_sweep(file.name).outcomes) if outcome}
 
 
 def killed(case: str, kills: int, seed: int) -> Counter[str]:
