@@ -13,6 +13,10 @@ class UsageError(ValueError):
         return shown(super().__str__())
 
 
+class NoRoom(UsageError):
+    """A run that is not begun, because it would need more memory or disk than there is."""
+
+
 class RunFailed(RuntimeError):
     """A run that did not reach the requested state; the message gives the reason."""
 

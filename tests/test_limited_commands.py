@@ -163,6 +163,66 @@ def test_linear_algebra_needs_its_memory(monkeypatch) -> None:
         importlib.import_module(machine.ALGEBRA)
 
 
+class TestASweep:
+    """Each process of a worker has the limit for itself, while its runs last."""
+
+    @pytest.fixture
+    def deck(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+        monkeypatch.chdir(tmp_path)
+        Path("swings.adm").write_text(SWINGS)
+        return "swings.adm"
+
+    @pytest.mark.skipif(sys.platform != "linux", reason="no other system keeps a limit")
+    @pytest.mark.parametrize("steps", [300_000, 3_000_000], ids=["fails", "is refused"])
+    def test_runs_that_find_no_memory_are_carried_out_again(self, deck: str, steps: int) -> None:
+        """Rows of 1e5 numbers and more: an allocation fails, or the estimate says so before."""
+        words = ["sweep", deck, "POINT_MASS/2.MASS=1,1.5,2", "--measure", "max POINT_MASS/2.x"]
+        words += ["--end", "0.2", "--steps", str(steps), "-o", "x.nc", "--quiet", "--workers", "2"]
+        first = adamslite(*words, "--memory-limit", "150MB")
+        assert first.returncode == 4, first.stderr
+        assert first.stderr.count("MEMORY_LIMIT") == 3 and "memory" in first.stderr
+        there = al.load_sweep("x.nc")
+        assert (
+            there.outcomes == ["MEMORY_LIMIT"] * 3 and np.isnan(there["max POINT_MASS/2.x"]).all()
+        )
+        again = adamslite(*words, "--memory-limit", "4GB")
+        assert again.returncode == 0, again.stderr
+        assert al.load_sweep("x.nc").outcomes == ["DONE"] * 3
+
+    def test_the_limit_changes_nothing_that_fits(self, deck: str) -> None:
+        words = ({"POINT_MASS/2.MASS": [1.0, 2.0]}, "grid", 0, ["max POINT_MASS/2.x"])
+        whole = al.sweep(deck, *words, workers=1, path="whole.nc")
+        limited = al.sweep(deck, *words, workers=1, path="limited.nc", memory_limit="8GB")
+        assert limited.outcomes == ["DONE"] * 2 and limited.key == whole.key
+        assert Path("whole.nc").read_bytes() == Path("limited.nc").read_bytes()
+
+    @pytest.mark.parametrize(
+        ("flags", "said"),
+        [
+            (["--memory-limit", "2GB", "--threads"], "threads have one together"),
+            (["--memory-limit", "2GB", "--scheduler", "tcp://nowhere:1"], "have their own"),
+            (["--memory-limit", "much"], "it must be a size"),
+            pytest.param(
+                ["--memory-limit", "1MB"], "before the run the process takes",
+                marks=pytest.mark.skipif(sys.platform != "linux", reason="it is not asked"),
+            ),
+        ],
+    )  # fmt: skip
+    def test_a_limit_that_no_run_could_keep_is_refused(
+        self, deck: str, flags: list[str], said: str, capsys
+    ) -> None:
+        words = ["sweep", deck, "POINT_MASS/2.MASS=1,2", "--measure", "max POINT_MASS/2.x"]
+        assert main([*words, "-o", "x.nc", *flags]) == 2
+        assert said in capsys.readouterr().err and not Path("x.nc").exists()
+
+
+def adamslite(*words: str) -> subprocess.CompletedProcess[str]:
+    """A command in a process of its own, which takes no more than it needs."""
+    return subprocess.run(
+        [sys.executable, "-m", "adamslite", *words], capture_output=True, text=True, timeout=120
+    )
+
+
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="no other system keeps a limit")
 @pytest.mark.parametrize("command", ["linear", "sens", "fit"])

@@ -43,6 +43,7 @@ def sweep(
     progress: Progress | Callable[[float, float], Any] | bool | None = None,
     cpu_limit: float | None = None,
     max_steps: int | None = None,
+    memory_limit: int | str | None = None,
 ) -> Sweep:
     """Run a deck many times with other numbers, on all processors.
 
@@ -82,6 +83,10 @@ def sweep(
         Of each run, as for :func:`adamslite.simulate`; with ``by="threads"`` the CPU is that of all
         runs of this process together.
 
+    memory_limit : int or str
+        Data of each process of a worker while a run lasts, as for :func:`adamslite.simulate`; not
+        with threads or a cluster. Runs that reach it are tried again with the file.
+
     Returns
     -------
     Sweep
@@ -106,6 +111,7 @@ def sweep(
         hmax=hmax,
         cpu_limit=cpu_limit,
         max_steps=max_steps,
+        memory_limit=memory_limit,
     )
     read = [deck.path] if deck.path else []
     read += [deck.folder / name for name in tables_of(deck, given.commands)]

@@ -14,7 +14,7 @@ from adamslite.analyses.setup.subject import kernels_of, prepared_for
 from adamslite.analyses.simulation import simulate
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command
-from adamslite.errors import RunFailed, UsageError
+from adamslite.errors import NoRoom, OutOfMemory, RunFailed, UsageError
 from adamslite.language.diagnostics import DeckError
 from adamslite.model.reduction import kept_apart
 from adamslite.results.outcomes import Outcome
@@ -63,6 +63,8 @@ class Job:
     measures : tuple of Measure
     channels : tuple of str
         Columns whose histories are kept.
+    memory_limit : int, optional
+        Data of the process of a worker while a run lasts [byte].
     """
 
     deck: Deck
@@ -72,6 +74,7 @@ class Job:
     options: Mapping[str, Any] = field(default_factory=dict)
     measures: tuple[Measure, ...] = ()
     channels: tuple[str, ...] = ()
+    memory_limit: int | None = None
 
     def given(self, number: int) -> dict[str, float]:
         """The numbers of a run by name."""
@@ -85,7 +88,12 @@ class Job:
         try:
             with _turns if self.deck.user.made else nullcontext():
                 deck = with_values(self.deck, self.given(number))
-                results = simulate(deck, commands=self.commands, notes=False, **self.options)
+                results = simulate(
+                    deck, commands=self.commands, notes=False, memory_limit=self.memory_limit,
+                    **self.options,
+                )  # fmt: skip
+        except (NoRoom, OutOfMemory) as fault:
+            return self.without(number, Outcome.MEMORY_LIMIT.name, str(fault))
         except DeckError as fault:
             first = next((each for each in fault.diagnostics if each.is_error), None)
             return self.without(number, INVALID, first.message if first else str(fault))

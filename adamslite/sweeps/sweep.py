@@ -5,6 +5,7 @@ from __future__ import annotations
 import time as clock
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -12,7 +13,7 @@ from uuid import uuid4
 
 import numpy as np
 
-from adamslite.analyses.setup.run_options import checked
+from adamslite.analyses.setup.run_options import checked, within_memory
 from adamslite.analyses.setup.subject import kernels_of, prepared_for
 from adamslite.caching.program import program
 from adamslite.deck.deck import Deck
@@ -26,6 +27,7 @@ from adamslite.outputs.whole_files import need_writable
 from adamslite.progress import Progress
 from adamslite.reading.numbers import Named
 from adamslite.results.channels import describe, of_argument, unit_symbols
+from adamslite.results.outcomes import Outcome
 from adamslite.results.selection import selected
 from adamslite.sweeps import netcdf
 from adamslite.sweeps.job import AHEAD, FAULT, Job, Run
@@ -39,6 +41,9 @@ from adamslite.variation.decks import variable_of
 
 #: The file is written this often [s], and never more than this share of the time goes into it.
 INTERVAL, SHARE = 10.0, 0.05
+#: Outcomes of runs that are tried again: what the program failed at may go well now, where memory
+#: was short or a worker was ended; a limit of memory is of the machine, not of the run.
+AGAIN = (FAULT, Outcome.MEMORY_LIMIT.name)
 
 
 class Wanted(NamedTuple):
@@ -79,7 +84,7 @@ def sweep(
     path : str or Path
         The file of the runs; in memory alone unless given.
     options : mapping
-        As ``simulate`` takes them.
+        As ``simulate`` takes them; ``memory_limit`` is that of each worker.
     read : iterable of Path
         The files that the deck was read from.
 
@@ -90,8 +95,13 @@ def sweep(
         anything else.
     """
     progress, options = progress or Progress(), checked(options or {})
-    with _carrier(means or Means(), progress) as lots_of:
+    means, memory = means or Means(), options.pop("memory_limit", None)
+    _need_processes(means, memory)
+    with _carrier(means, progress) as lots_of:
         job, made = planned(deck, wanted, commands, options, progress)
+        job = replace(job, memory_limit=memory)
+        with within_memory(memory):
+            pass  # refused here where no run would have room
         if path is not None:
             need_writable(path, read)
             made = _gone_on_with(made, Path(path))
@@ -136,6 +146,15 @@ def _enter_all(
         pass  # what is ahead shows it
     finally:
         writing.write()
+
+
+def _need_processes(means: Means, memory_limit: int | None) -> None:
+    """Reject a limit of memory where workers are no processes of this machine of their own."""
+    if memory_limit is not None and (means.kind == THREADS or means.scheduler is not None):
+        raise UsageError(
+            "--memory-limit is kept by each process of a worker: threads have one together (leave "
+            "out --threads), and workers of a cluster have their own (dask worker --memory-limit)"
+        )
 
 
 def _workers(means: Means) -> int:
@@ -239,8 +258,7 @@ def _gone_on_with(made: Sweep, path: Path) -> Sweep:
             f"'{path}' holds another sweep: the deck, the values, what is kept or the program have "
             f"changed since; remove it, or give -o another name"
         )
-    # What the program failed at may go well now: where memory was short, or a worker was ended.
-    there.outcomes = [AHEAD if each == FAULT else each for each in there.outcomes]
+    there.outcomes = [AHEAD if each in AGAIN else each for each in there.outcomes]
     return there
 
 

@@ -16,7 +16,7 @@ from numbers import Integral, Real
 from typing import TYPE_CHECKING, Any
 
 from adamslite.elements.integrator import Integrator
-from adamslite.errors import OutOfMemory, UsageError
+from adamslite.errors import NoRoom, OutOfMemory, UsageError
 from adamslite.results.outcomes import KEPT, Outcome
 
 if TYPE_CHECKING:
@@ -221,7 +221,7 @@ def within_memory(limit: int | None) -> Iterator[None]:
         with memory_limited(limit):
             if not left_of_limit():
                 own = (used_memory() or 0) / 1e6
-                raise UsageError(
+                raise NoRoom(
                     f"--memory-limit {limit}: before the run the process takes {own:.0f} MB"
                 )
             yield

@@ -15,7 +15,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import NamedTuple
 
-from adamslite.errors import UsageError
+from adamslite.errors import NoRoom
 from adamslite.machine import free_disk, free_memory
 
 NUMBER, OF_TIME = 8, 5
@@ -56,7 +56,7 @@ def require_room(rows: Rows, kept: int, file: Path | None) -> None:
 
     Raises
     ------
-    UsageError
+    NoRoom
         With what would be needed, what there is, and what to do.
     """
     by_rows = file is None or file.suffix.lower() in (FROM_A_FILE if rows.filed else BY_ROWS)
@@ -76,7 +76,7 @@ def _need(
 ) -> None:
     if free is None or need <= free:
         return
-    raise UsageError(
+    raise NoRoom(
         TOO_LARGE.format(
             rows=rows.number, columns=columns, need=need / GIGA, what=what, free=free / GIGA,
             where=where, remedy=remedy,

@@ -4,7 +4,8 @@ Each NAME=VALUES varies a number of the deck (`adamslite names` lists them): FRO
 equal distances, a list 1,2,4, or FROM:TO with a sample that draws. A grid runs all combinations.
 All runs go to one NetCDF file, DECK's name with .sweep.nc in the current directory or OUT; a run
 that fails is kept with its outcome. Interrupted, the file has what is done, and the same command
-goes on; it tries those again that the program itself failed at (FAULT).
+goes on; it tries those again that the program itself failed at (FAULT), and those that ran out of
+memory (MEMORY_LIMIT).
 """
 
 import argparse
@@ -15,7 +16,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from adamslite.cli.commands.codes import DONE, STOPPED_EARLY
-from adamslite.run_flags import add_integration_flags, add_scene_flags, count, positive, run_options
+from adamslite.run_flags import (
+    add_integration_flags,
+    add_limit_flags,
+    add_scene_flags,
+    count,
+    run_options,
+)
 
 if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
@@ -58,9 +65,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="workers are those of a Dask cluster: tcp://host:8786, or the scheduler's .json file",
     )  # fmt: skip
     add_scene_flags(parser)
-    flags = add_integration_flags(parser)
-    flags.add_argument("--cpu-limit", type=positive, metavar="S", help="CPU of each run in seconds")
-    flags.add_argument("--max-steps", type=count, metavar="N", help="steps of each run")
+    add_integration_flags(parser)
+    add_limit_flags(parser, "a run that reaches one is kept with its outcome", "each run")
     parser.add_argument("--quiet", action="store_true", help="print nothing unless runs fail")
 
 
