@@ -78,6 +78,31 @@ def test_a_signal_ends_a_command_in_a_sentence(tmp_path: Path, name, when, endin
     assert (run.returncode, run.stdout, run.stderr) == ending
 
 
+IN_TEXT = """
+import os, signal, sys, time
+import adamslite.__main__ as command
+from adamslite.cli import main as cli
+SIGNAL = "import os, signal; os.kill(os.getpid(), signal.{name}); sum(range(10))"
+def run():
+    exec(SIGNAL)
+    time.sleep(60)
+cli.main = run
+sys.exit(command.main())
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="it has no such signals")
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
+def test_a_signal_while_a_text_is_carried_out(tmp_path: Path, name) -> None:
+    """Classes are made from such texts; `python -m` ends by SIGINT where one was interrupted."""
+    (tmp_path / "command.py").write_text(IN_TEXT.format(name=name))
+    run = subprocess.run(
+        [sys.executable, "-m", "command"], capture_output=True, text=True, timeout=50,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), *sys.path])},
+    )  # fmt: skip
+    assert (run.returncode, run.stdout, run.stderr) == INTERRUPTED
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="it has no such signals")
 @pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
 def test_a_signal_that_who_starts_a_command_ignores_stays_ignored(name) -> None:
