@@ -78,6 +78,27 @@ def test_a_signal_ends_a_command_in_a_sentence(tmp_path: Path, name, when, endin
     assert (run.returncode, run.stdout, run.stderr) == ending
 
 
+@pytest.mark.parametrize("known", ["cause", "context"])
+def test_an_interruption_that_comes_as_another_fault_is_one(
+    known: str, monkeypatch: pytest.MonkeyPatch, capsys
+) -> None:
+    """Where it meets a class that is being made, or a module, they may report a fault of theirs."""
+    from adamslite.cli import main as cli
+    from adamslite.cli.commands import cache
+
+    def run(_: object) -> int:
+        try:
+            raise KeyboardInterrupt
+        except KeyboardInterrupt as fault:
+            raise RuntimeError("Error calling __set_name__") from (
+                fault if known == "cause" else None
+            )
+
+    monkeypatch.setattr(cache, "run", run)
+    assert cli.main(["cache"]) == 4
+    assert capsys.readouterr().err == "adamslite: interrupted\n"
+
+
 IN_TEXT = """
 import os, signal, sys, time
 import adamslite.__main__ as command

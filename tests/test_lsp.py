@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -253,3 +254,14 @@ def test_what_is_no_message_is_reported_without_a_traceback(sent: bytes) -> None
         input=b"Content-Length: %d\r\n\r\n%s" % (len(sent), sent),
     )  # fmt: skip
     assert done.returncode == 0 and b"Traceback" not in done.stderr, done.stderr
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="it has no such signals")
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
+def test_a_signal_ends_the_server_while_the_editor_is_silent(name: str) -> None:
+    """It reads standard input then, which nothing else ends."""
+    client = Client()
+    client.request("initialize", processId=None, rootUri=None, capabilities={})
+    client.process.send_signal(getattr(signal, name))
+    assert client.process.wait(30) == 4
+    client.listener.join()

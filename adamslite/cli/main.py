@@ -277,7 +277,16 @@ def _run(argv: Sequence[str], own: bool) -> int:
     except KeyboardInterrupt:
         return interrupted()
     except Exception as fault:
-        return _explain(fault)
+        return interrupted() if _is_interruption(fault) else _explain(fault)
+
+
+def _is_interruption(fault: BaseException | None) -> bool:
+    """Whether a fault was made of Ctrl-C, by what was being imported or made then."""
+    while fault is not None:
+        if isinstance(fault, KeyboardInterrupt):
+            return True
+        fault = fault.__cause__ or fault.__context__
+    return False
 
 
 def interrupted() -> int:

@@ -6,8 +6,16 @@ VS Code needs for that (docs/how-to/editor.md). It needs the extra [lsp].
 
 import argparse
 import logging
+import os
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 
-from adamslite.cli.commands.codes import DONE
+from adamslite.cli.commands.codes import DONE, STOPPED_EARLY
+
+#: What ends the server, where the system knows it.
+ENDING = ("SIGINT", "SIGTERM", "SIGHUP")
+INTERRUPTED = b"adamslite: interrupted\n"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -35,8 +43,31 @@ def run(args: argparse.Namespace) -> int:
     logging.getLogger("pygls.protocol.json_rpc").addFilter(
         lambda record: not record.msg.startswith("Unable to deserialize")
     )
-    start()
+    with _ended_at_once():
+        start()
     return DONE
+
+
+@contextmanager
+def _ended_at_once() -> Iterator[None]:
+    """Meanwhile signals end the process: there is nothing to keep, and a thread that reads standard
+    input would be waited for until the editor writes.  One that is ignored stays ignored.
+    """
+    known = [number for each in ENDING if (number := getattr(signal, each, None))]
+    heard = {n: old for n in known if (old := signal.getsignal(n)) not in (signal.SIG_IGN, None)}
+    for number in heard:
+        signal.signal(number, _end)
+    try:
+        yield
+    finally:
+        for number, old in heard.items():
+            signal.signal(number, old)
+
+
+def _end(*_: object) -> None:
+    with suppress(OSError):
+        os.write(2, INTERRUPTED)
+    os._exit(STOPPED_EARLY)
 
 
 class _OneLine(logging.Formatter):
