@@ -141,7 +141,7 @@ def _ignore() -> None:
 
 def main() -> int:
     """Run the command line of the process and return the exit code."""
-    from adamslite.cli.main import interrupted
+    from adamslite.cli.main import interrupted, leave
     from adamslite.cli.main import main as run_command
 
     try:
@@ -152,7 +152,9 @@ def main() -> int:
             _ignore()
     except KeyboardInterrupt:
         _ignore()
-        return interrupted()
+        code = interrupted()
+        leave(code)
+        return code
 
 
 if __name__ == "__main__":

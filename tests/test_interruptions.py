@@ -99,6 +99,28 @@ def test_an_interruption_that_comes_as_another_fault_is_one(
     assert capsys.readouterr().err == "adamslite: interrupted\n"
 
 
+LOADED_BY_HALF = """
+import atexit, sys
+import adamslite.__main__ as command
+from adamslite.cli import main as cli
+atexit.register(print, "taken away", flush=True)
+class Library:
+    def __del__(self):
+        print("taken down", flush=True)
+kept = Library()
+def run(*_):
+    raise KeyboardInterrupt
+cli._with_commands = run
+sys.exit(command.main())
+"""
+
+
+def test_what_was_being_loaded_is_not_taken_down() -> None:
+    """Libraries whose loading was interrupted crash then; temporary folders go all the same."""
+    run = subprocess.run([sys.executable, "-c", LOADED_BY_HALF], capture_output=True, text=True)
+    assert (run.returncode, run.stdout, run.stderr) == (4, "taken away\n", INTERRUPTED[2])
+
+
 IN_TEXT = """
 import os, signal, sys, time
 import adamslite.__main__ as command

@@ -173,7 +173,13 @@ class TestASweep:
         return "swings.adm"
 
     @pytest.mark.skipif(sys.platform != "linux", reason="no other system keeps a limit")
-    @pytest.mark.parametrize("steps", [300_000, 3_000_000], ids=["fails", "is refused"])
+    @pytest.mark.parametrize(
+        "steps",
+        [
+            pytest.param(300_000, id="fails"),
+            pytest.param(3_000_000, id="is refused", marks=pytest.mark.slow),
+        ],
+    )
     def test_runs_that_find_no_memory_are_carried_out_again(self, deck: str, steps: int) -> None:
         """Rows of 1e5 numbers and more: an allocation fails, or the estimate says so before."""
         words = ["sweep", deck, "POINT_MASS/2.MASS=1,1.5,2", "--measure", "max POINT_MASS/2.x"]

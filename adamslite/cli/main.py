@@ -29,6 +29,7 @@ a command needs it.
 """
 
 import argparse
+import atexit
 import gc
 import os
 import sys
@@ -129,7 +130,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         code = _run(argv, own)
     if own:
         code = _end_output(code)
-        _leave_workers(code)
+        leave(code)
         gc.freeze()  # nothing is looked through while the process ends
     return code
 
@@ -200,12 +201,13 @@ def _end_output(code: int) -> int:
         return code or IO_FAILED
 
 
-def _leave_workers(code: int) -> None:
-    """End the process where a call still works that nobody waits for: the libraries that it is in
-    cannot be taken down under it.
+def leave(code: int) -> None:
+    """End the process where it cannot be taken down: where a call still works that nobody waits
+    for, in libraries, and where an interruption may have met one that was being loaded.
     """
     worker = sys.modules.get("adamslite.native.worker")
-    if worker is not None and worker.left_working():
+    if _cut_short or (worker is not None and worker.left_working()):
+        atexit._run_exitfuncs()  # temporary folders
         with suppress(OSError):
             sys.stderr.flush()
         os._exit(code)
@@ -289,8 +291,14 @@ def _is_interruption(fault: BaseException | None) -> bool:
     return False
 
 
+#: Whether Ctrl-C has ended the command, wherever it was.
+_cut_short = False
+
+
 def interrupted() -> int:
     """Report that Ctrl-C has ended a command; return the exit code."""
+    global _cut_short
+    _cut_short = True
     _tell("adamslite: interrupted")
     return STOPPED_EARLY
 
