@@ -120,6 +120,34 @@ def test_an_entry_that_others_could_write_to_is_not_used(way, cache, caplog) -> 
     assert entry.stat().st_mode & 0o777 == 0o600 and entry.stat().st_uid == OWNER
 
 
+def pipe(entry: Path) -> None:
+    os.mkfifo(entry, 0o600)
+
+
+def endless(entry: Path) -> None:
+    entry.symlink_to("/dev/zero")
+
+
+def device(entry: Path) -> None:
+    """Whose owner is trusted, and nobody else may write to it."""
+    entry.symlink_to("/proc/self/pagemap")
+
+
+def terabyte(entry: Path) -> None:
+    entry.write_bytes(sealed(NAME, CONTENT))
+    os.truncate(entry, 1 << 40)
+    entry.chmod(0o600)
+
+
+@UNIX
+@pytest.mark.parametrize("trap", [pipe, endless, device, terabyte, Path.mkdir])
+def test_what_is_no_entry_is_neither_waited_for_nor_read(trap, cache, caplog) -> None:
+    trap(cache / NAME)
+    assert recall(NAME, lambda: CONTENT) == CONTENT
+    assert len(caplog.messages) == 1 and "is rebuilt" in caplog.text
+    assert trap == Path.mkdir or (cache / NAME).read_bytes() == sealed(NAME, CONTENT)
+
+
 @UNIX
 def test_entries_are_closed_whatever_the_mask(cache) -> None:
     before = os.umask(0)

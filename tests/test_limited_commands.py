@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -15,7 +16,8 @@ from fit_scenes import SWINGS, K, X, table
 import adamslite as al
 from adamslite import Outcome, machine
 from adamslite.cli.main import main
-from adamslite.errors import RunFailed
+from adamslite.errors import NoRoom, OutOfMemory, RunFailed
+from adamslite.fitting import curves
 from adamslite.native import worker
 from adamslite.sensitivity import adjoint, study
 
@@ -155,6 +157,36 @@ def test_a_reference_whose_run_reaches_a_limit_is_not_met(capsys) -> None:
     assert "STEP_LIMIT" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize("fault", [NoRoom("too little"), OutOfMemory("too little")])
+def test_a_fit_without_memory_for_a_run_has_its_best_numbers(monkeypatch, fault) -> None:
+    """Those after it would have none either: it is a limit, and no place where runs fail."""
+    usual, runs = curves.simulate, []
+
+    def short(*words, **options):
+        runs.append(words)
+        if len(runs) > 8:
+            raise fault
+        return usual(*words, **options)
+
+    monkeypatch.setattr(curves, "simulate", short)
+    found = al.fit(SWINGS, measured(), [K])
+    assert found.limited and found.stopped == "too little" and len(runs) == 9
+
+
+def test_references_without_memory_for_their_run_are_not_met(monkeypatch, capsys) -> None:
+    """Each has its line, and the others are tried."""
+    decks = [str(Path(__file__).parents[1] / "decks" / name) for name in ("atwood", "cam")]
+
+    def short(*_, **__):
+        raise OutOfMemory("too little")
+
+    monkeypatch.setattr("adamslite.verification.verification.run_scene", short)
+    assert main(["verify", *decks, "--jobs", "1"]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[-1].startswith("0 of ") and len(lines) > 2
+    assert all(line.startswith("FAIL") and "too little" in line for line in lines[:-1])
+
+
 def test_linear_algebra_needs_its_memory(monkeypatch) -> None:
     """Its library ends the process, or waits for ever, where it gets none."""
     monkeypatch.delitem(sys.modules, machine.ALGEBRA, raising=False)
@@ -231,23 +263,28 @@ def adamslite(*words: str) -> subprocess.CompletedProcess[str]:
 
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="no other system keeps a limit")
-@pytest.mark.parametrize("command", ["linear", "sens", "fit"])
+@pytest.mark.parametrize("command", ["linear", "sens", "fit", "verify"])
 def test_whatever_memory_there_is_a_command_ends_by_name(
     tmp_path, monkeypatch, command: str
 ) -> None:
     """From a limit that is too small for the program itself to one that is enough."""
     monkeypatch.chdir(tmp_path)
     Path("swings.adm").write_text(SWINGS)
-    words = {"linear": [], "sens": ["--of", "POINT_MASS/2.x@end"], "fit": [str(measured())]}
-    by = [] if command == "linear" else ["--by", K]
+    shutil.copytree(Path(__file__).parents[1] / "decks/hanging-mass", "hanging-mass")
+    words = {
+        "linear": ["swings.adm"], "verify": ["hanging-mass"],
+        "sens": ["swings.adm", "--of", "POINT_MASS/2.x@end", "--by", K],
+        "fit": ["swings.adm", str(measured()), "--by", K],
+    }  # fmt: skip
     codes = []
     for size in (60, 90, 100, 120, 140, 170, 200, 250, 1000):
         done = subprocess.run(
-            [sys.executable, "-m", "adamslite", command, "swings.adm", *words[command], *by,
+            [sys.executable, "-m", "adamslite", command, *words[command],
              "--memory-limit", f"{size}MB"],
             capture_output=True, text=True, timeout=60,
         )  # fmt: skip
-        assert done.returncode in (0, 2, 4), (size, done.stderr)
+        ends = (0, 1) if command == "verify" else (0, 2, 4)
+        assert done.returncode in ends, (size, done.stderr)
         assert done.returncode == 0 or "--memory-limit" in done.stdout + done.stderr
         codes.append(done.returncode)
     assert codes[-1] == 0 and codes[0] != 0

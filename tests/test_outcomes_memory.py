@@ -253,6 +253,45 @@ def test_without_room_for_a_thread_nothing_is_run(monkeypatch: pytest.MonkeyPatc
         run(POINT, 1.0, integrator="GSTIFF")
 
 
+def test_a_thread_without_room_for_its_first_call_is_not_waited_for(monkeypatch) -> None:
+    """It has begun, and ends before it does anything: nobody would ever be told."""
+    called: list[Any] = []
+    monkeypatch.setattr(worker, "start_new_thread", lambda *_: called.append(1))
+    with pytest.raises(RunFailed, match="needs more memory than there is"):
+        run(POINT, 1.0, integrator="GSTIFF")
+    with pytest.raises(MemoryError):
+        worker.interruptible(lambda: called.append(2))
+    assert called == [1, 1]
+
+
+#: A call in a thread where so much is left [byte]; the exit code says whether it was made.
+LEFT = """
+import os, resource, sys
+from adamslite import machine
+from adamslite.native import worker
+limit = machine.used_memory() + int(sys.argv[1])
+resource.setrlimit(resource.RLIMIT_DATA, (limit, limit))
+try:
+    worker.interruptible(lambda: None)
+except MemoryError:
+    os._exit(4)
+os._exit(0)
+"""
+
+
+@LINUX
+@pytest.mark.slow
+def test_however_much_is_left_a_call_is_made_or_not(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In steps of two pages round the stack of a thread, 8 MB, and what Python adds to it."""
+    codes = []
+    for left in range(8_340_000, 8_640_000, 8192):
+        done = subprocess.run(
+            [sys.executable, "-c", LEFT, str(left)], capture_output=True, timeout=60
+        )
+        codes.append(done.returncode)
+    assert set(codes) == {0, 4} and codes[0] == 4 and codes[-1] == 0
+
+
 def test_no_memory_elsewhere_is_no_fault_of_the_program(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any
 ) -> None:

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+import stat
 import struct
 import time
 from collections.abc import Callable
@@ -81,12 +82,21 @@ def _verified(path: Path) -> bytes:
 
 
 def _own_bytes(path: Path) -> bytes:
-    """What a file holds that nobody else can have written, or write to."""
-    with open(path, "rb") as file:
+    """What a file holds that nobody else can have written, or write to; read if it may be whole."""
+    with open(path, "rb", opener=_at_once) as file:
         facts = os.fstat(file.fileno())
+        if not stat.S_ISREG(facts.st_mode):
+            raise Damaged("it is no file")
         if HAS_OWNERS and (not is_trusted(facts.st_uid) or facts.st_mode & OTHERS):
             raise Damaged("others could write to it")
+        _head(file.read(HEAD.size) if facts.st_size else b"", facts.st_size)
+        file.seek(0)
         return file.read()
+
+
+def _at_once(path: str, flags: int) -> int:
+    """Open what may be a pipe, which a writer would be waited for."""
+    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))
 
 
 def keep(name: str, content: bytes) -> None:
@@ -112,17 +122,23 @@ def sealed(name: str, content: bytes) -> bytes:
 
 def unsealed(name: str, entry: bytes) -> bytes:
     """The content of an entry; raises :class:`Damaged`."""
-    if len(entry) < HEAD.size:
-        raise Damaged("it is cut short" if entry else "it is empty")
-    magic, length, digest = HEAD.unpack_from(entry)
-    if magic != MAGIC:
-        raise Damaged("it does not begin as an entry does")
-    if length != len(entry) - HEAD.size:
-        raise Damaged(f"{len(entry) - HEAD.size} bytes follow where {length} were written")
+    digest = _head(entry[: HEAD.size], len(entry))
     content = entry[HEAD.size :]
     if digest != _digest(name, content):
         raise Damaged("its content is not what was written")
     return content
+
+
+def _head(head: bytes, size: int) -> bytes:
+    """The SHA-256 in the head of an entry of that size [bytes]; raises :class:`Damaged`."""
+    if len(head) < HEAD.size:
+        raise Damaged("it is cut short" if head else "it is empty")
+    magic, length, digest = HEAD.unpack(head)
+    if magic != MAGIC:
+        raise Damaged("it does not begin as an entry does")
+    if length != size - HEAD.size:
+        raise Damaged(f"{size - HEAD.size} bytes follow where {length} were written")
+    return bytes(digest)
 
 
 def _digest(name: str, content: bytes) -> bytes:

@@ -13,7 +13,7 @@ from adamslite.analyses.setup.run_options import Budget
 from adamslite.analyses.simulation import simulate
 from adamslite.deck.deck import Deck
 from adamslite.deck.redefinition import Command
-from adamslite.errors import RunFailed, UsageError
+from adamslite.errors import NoRoom, OutOfMemory, RunFailed, UsageError
 from adamslite.fitting.measured import Measured
 from adamslite.fitting.parameters import Parameter
 from adamslite.language.diagnostics import DeckError
@@ -107,6 +107,8 @@ class Runs:
         except DeckError as fault:
             first = next((each for each in fault.diagnostics if each.is_error), None)
             raise Failed(first.message if first else str(fault)) from None
+        except (NoRoom, OutOfMemory) as fault:  # and those after it would have none either
+            raise Spent(str(fault)) from None
         except (UsageError, RunFailed, ArithmeticError) as fault:
             raise Failed(str(fault)) from None
         if found.outcome is Outcome.INTERRUPTED:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import signal
 import threading
 from _thread import allocate_lock, start_new_thread
+from _weakref import ref
 from collections.abc import Callable
 from typing import Any, Generic, TypeAlias, TypeVar
 
@@ -22,12 +23,17 @@ class Overspent(Exception):
     """A call has gone on for longer than its caller allows."""
 
 
+class _Held:
+    """What a thread holds as long as there is one."""
+
+
 class Worker(Generic[Returned]):
     """A call that has begun.
 
     A thread of ``threading`` costs twice as much and a pool of one thread five times, which is as
     much as a short run takes.  A lock is waited for because ``Thread.join``, when it is interrupted
-    in Python 3.11, takes a running thread for finished.
+    in Python 3.11, takes a running thread for finished.  A thread may end before it has begun, when
+    there is no memory for its first frame: nothing of it has run then, but what it held is gone.
     """
 
     def __init__(self, call: Callable[[], Returned]) -> None:
@@ -37,12 +43,14 @@ class Worker(Generic[Returned]):
         self._fault: BaseException | None = None
         self._busy = allocate_lock()
         self._busy.acquire()
+        held = _Held()
+        self._held = ref(held)
         try:
-            start_new_thread(self._run, ())
+            start_new_thread(self._run, (held,))
         except RuntimeError:  # there is no room for its stack
             raise MemoryError from None
 
-    def _run(self) -> None:
+    def _run(self, held: _Held) -> None:
         try:
             self._result = self._call()
         except BaseException as fault:  # raised again where the result is asked for
@@ -54,7 +62,7 @@ class Worker(Generic[Returned]):
     @property
     def works(self) -> bool:
         """Whether the call has not returned yet."""
-        return not self._done
+        return not self._done and self._held() is not None
 
     def wait(self, timeout: float) -> None:
         """Until the call returns, but not longer than ``timeout`` [s]."""
@@ -65,6 +73,8 @@ class Worker(Generic[Returned]):
         """What the call returned, when it works no longer; raises what it raised."""
         if self._fault is not None:
             raise self._fault
+        if not self._done:
+            raise MemoryError
         found: Returned = self._result
         return found
 

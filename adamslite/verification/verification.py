@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from adamslite import notation
-from adamslite.errors import FormatError, UsageError
+from adamslite.errors import FormatError, OutOfMemory, UsageError
 from adamslite.language.diagnostics import DeckError
 from adamslite.language.file_name import leads_out
 from adamslite.progress import Progress
@@ -170,7 +170,7 @@ def _judge_safely(case: Case, run: Run) -> Verdict:
     except DeckError as fault:
         first = fault.errors[0]
         return Verdict(case, False, f"the deck has errors: {first.span}: {first.message}")
-    except (Mismatch, FormatError, UsageError) as fault:
+    except (Mismatch, FormatError, UsageError, OutOfMemory) as fault:
         return Verdict(case, False, str(fault))
 
 
