@@ -48,7 +48,7 @@ FORMS = {"module:function": "function", "number": "number"}
 #: of letters that cannot be written (bytes of file names that are no text can).
 OBEYED = re.compile(
     "[\x00-\x08\x0b-\x1f\x7f-\x9f\xad\u061c\u180e\u200b\u200e\u200f\u2028-\u202e\u2060-\u206f"
-    "\ufeff\ufff9-\ufffb\ud800-\udc7f\udd00-\udfff]"
+    "\ufeff\ufff9-\ufffb\ufffe\uffff\ud800-\udc7f\udd00-\udfff]"
 )
 PICTURES, DELETE, UNKNOWN = 0x2400, 0x7F, "\ufffd"
 

@@ -291,6 +291,14 @@ def test_names_of_files_give_a_terminal_no_command(tmp_path: Path) -> None:
         assert obeyed(ran.stdout + ran.stderr) == []
 
 
+@UNIX
+@pytest.mark.parametrize("words", [["solve", "--{}"], ["cache", "{}"], ["{}"], ["diff", "--to={}"]])
+def test_words_of_a_command_line_give_a_terminal_no_command(tmp_path: Path, words) -> None:
+    """A script may take them from the names of files that somebody else has made."""
+    ran = command(tmp_path, *(word.format(EVERY) for word in words))
+    assert ran.returncode == 2 and obeyed(ran.stdout + ran.stderr) == []
+
+
 def test_tables_and_summaries_give_a_terminal_no_command(tmp_path: Path) -> None:
     (tmp_path / "deck.adm").write_text(PLACES["text"], encoding="utf-8")
     header = (

@@ -10,9 +10,11 @@ from html.parser import HTMLParser
 from io import BytesIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 from xml.etree import ElementTree
 
 import pytest
+from browsing import opened
 from scenes import SPRING
 
 import adamslite as al
@@ -21,6 +23,8 @@ WORDS = [
     "<script>alert(1)</script>", "</script><script>alert(1)</script>", "<!--<script>alert(1)",
     "<img src=x onerror=alert(1)>", "'><svg/onload=alert(1)>", "</pre></title></style><b>x</b>",
     "{{bundle}}{{scene}}", "&lt;b&gt;&#60;i&#62;", "]]><x/>", "--><x/>", "javascript:alert(1)",
+    "\u2028\u2029\x85</script>\x00<b>", "'`\x1b\x7f\u202e<b onclick=owned=1>",
+    "\ufffe\x0b<![CDATA[<b>",
 ]  # fmt: skip
 
 
@@ -116,6 +120,25 @@ def test_a_page_loads_nothing_and_asks_nobody() -> None:
     text = page(scene("harmless"))
     policy = text.partition('Content-Security-Policy" content="')[2].partition('"')[0]
     assert policy.startswith("default-src 'none';") and "connect-src" not in policy
+
+
+@pytest.mark.browser
+def test_no_word_of_a_deck_is_carried_out_by_a_browser(browser: Any, tmp_path: Path) -> None:
+    """All of them at once, each of which would set a variable or open a dialog."""
+    words = " ".join(WORDS).replace("alert(1)", "owned=1")
+    pages = {name: maker(scene(words)) for name, maker in MAKERS.items()}
+    for name, text in pages.items():
+        whole = text if "<html" in text else f"<!DOCTYPE html><body>{text}"
+        with opened(browser, whole, tmp_path, quiet=name != "notebook") as tab:
+            tab.page.on("dialog", lambda dialog: dialog.dismiss())
+            tab.page.wait_for_timeout(300)
+            for tag in ("button", "summary", "[role=tab]", "tr", "li"):
+                for each in tab.page.locator(tag).all()[:40]:
+                    if each.is_visible():
+                        each.dispatch_event("click")
+            frames = [each.evaluate("() => typeof owned") for each in tab.page.frames]
+            assert frames and set(frames) == {"undefined"}, name
+            assert tab.page.locator("[onerror],[onload],[onclick],img,b:text-is('x')").count() == 0
 
 
 def test_results_of_others_are_texts_of_the_page(tmp_path: Path) -> None:

@@ -38,7 +38,7 @@ from contextlib import AbstractContextManager, nullcontext, suppress
 from errno import ENOMEM
 from importlib import import_module
 from io import BufferedWriter, FileIO, TextIOWrapper
-from typing import Any, TypeAlias
+from typing import Any, NoReturn
 
 from adamslite import __version__
 from adamslite.cli.commands.codes import BROKEN, DECK_ERRORS, DONE, IO_FAILED, STOPPED_EARLY, USAGE
@@ -82,7 +82,15 @@ THREADS = (
 )  # fmt: skip
 ALL_THREADS = "OMP_NUM_THREADS"
 
-Parser: TypeAlias = argparse.ArgumentParser
+
+class Parser(argparse.ArgumentParser):
+    """Says what is wrong with a word without giving the terminal its commands."""
+
+    def error(self, message: str) -> NoReturn:
+        """Print usage and message; end the process."""
+        from adamslite.notation import visible
+
+        super().error(visible(message))
 
 
 class Shown:
@@ -318,14 +326,14 @@ def _with_commands(called: Collection[str]) -> tuple[Parser, Mapping[str, Parser
     """The parser of the program, and those of the commands that are called; without any, it lists
     all of them.
     """
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="adamslite",
         description="Solve ADAMS/Solver-like decks of cables, pulleys and mechanisms.",
         epilog=EXIT_CODES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--version", action="version", version=f"adamslite {__version__}")
-    shared = argparse.ArgumentParser(add_help=False)
+    shared = Parser(add_help=False)
     shared.add_argument(
         "--debug", action="store_true", help="show the traceback of a program fault"
     )
