@@ -90,6 +90,27 @@ def test_a_matrix_is_as_large_as_its_values_can_be(monkeypatch: pytest.MonkeyPat
         assert [each for each in found if each == "matrix-too-large"] == codes
 
 
+#: Each VARIABLE takes the one before twice: the last one is written with 2^300 of them.
+DOUBLED = "VARIABLE/1, FUNCTION=MAX(TIME,1)\n" + "".join(
+    f"VARIABLE/{k}, FUNCTION=0.5*VARVAL({k - 1})+0.4*VARVAL({k - 1})\n" for k in range(2, 301)
+)
+
+
+@pytest.mark.parametrize(
+    "held",
+    [
+        "MOTION/1, I=2, J=1, X, FUNCTION=VARVAL(300)",
+        "GCON/1, FUNCTION=DX(2)-VARVAL(300)",
+        "GCON/1, FUNCTION=DX(2)-VARVAL(300)\nDIFF/1, IC=0, FUNCTION=DELAY(DIF(1),1,0)",
+    ],
+)
+def test_a_chain_of_doublings_is_checked_link_by_link(held: str) -> None:
+    """In a MOTION and in constraints: when they hold, where they jump, how the deck starts."""
+    head = HEAD.replace("VARIABLE/1, FUNCTION=1\n", "").replace("ARRAY/3, U, VARIABLES=1\n", "")
+    found = al.check(f"{head}{DOUBLED}{held}\nSIMULATE/DYNAMIC, END=2, STEPS=10\nEND\n")
+    assert not [each for each in found if each.severity == "error"]
+
+
 def test_symbols_of_a_long_sum_take_little_memory() -> None:
     """Each of its partial sums has one more than the one before."""
     count = 1500

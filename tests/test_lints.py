@@ -8,8 +8,11 @@ import pytest
 from decklets import codes, told
 from tiers import every
 
+from adamslite import read
+from adamslite.assembly.corners import MOST, Corners
 from adamslite.language.diagnostics import DeckError
 from adamslite.language.messages import START
+from adamslite.model.model import Model
 from adamslite.resources import find
 from adamslite.scene import load_scene
 
@@ -117,6 +120,30 @@ def test_corners_count_where_velocities_jump(
     assert codes_of(f"MOTION/1, I=2, J=1, X{level}, FUNCTION={function}\n{run}") == expected
 
 
+def test_the_search_for_a_corner_grows_as_the_expression() -> None:
+    """MAX(1,MAX(1,...TIME)): operations of 20 and of 40 calls, each of which has an edge."""
+    taken = []
+    for depth in (20, 40):
+        function = f"{'MAX(1,' * depth}TIME{')' * depth}"
+        deck = read(START + f"MOTION/1, I=2, J=1, X, FUNCTION={function}\nEND\n")
+        search = Corners(Model(deck))
+        assert search.first(deck.find("MOTION", 1).function, 1, 2.0) == pytest.approx(("MAX", 1.0))
+        taken.append(MOST - search.left)
+    assert taken[1] < 2.1 * taken[0]
+
+
+def test_corners_are_looked_for_as_long_as_it_takes_little() -> None:
+    """The same in a few motions more than that: no warning is false, the first are there."""
+    function = f"{'MAX(1,' * 20}TIME{')' * 20}"
+    motions = "".join(
+        f"PART/{k}, MASS=1, CM={k}, IP=1,1,1\nMARKER/{k}, PART={k}\n"
+        f"MOTION/{k}, I={k}, J=1, X, FUNCTION={function}\n"
+        for k in range(10, 70)
+    )
+    found = codes_of(f"{motions}SIMULATE/DYNAMICS, END=2, STEPS=1")
+    assert 3 < found.count("kink") < 60
+
+
 def test_the_time_of_a_corner_is_reported() -> None:
     found = told(
         START + "VARIABLE/1, FUNCTION=MAX(0,TIME-0.75)\nMOTION/1, I=2, J=1, X, FUNCTION=VARVAL(1)\n"
@@ -135,6 +162,8 @@ def test_the_time_of_a_corner_is_reported() -> None:
         ("MAX(0,TIME-1)**2", ["kink"]),
         ("MAX(0,TIME-5)", []),
         ("MIN(DY(2),1)", ["kink"]),
+        ("MAX(1,ABS(TIME-1)-5)", []),
+        ("MAX(DY(2),ABS(TIME-1))", ["kink"]),
     ],
 )
 def test_a_law_in_a_gcon_has_corners_where_the_function_of_time_has(

@@ -9,7 +9,9 @@ from adamslite.assembly.scope import NumberScope, Unmeasured
 from adamslite.functions.forces import NET
 from adamslite.language.expression import OPERATORS, Call, Mode, Node, Num, Op, Ref, Time
 from adamslite.language.function import FUNCTIONS
+from adamslite.language.interfaces import Key
 from adamslite.language.statement import Argument, Statement
+from adamslite.model.cycles import behind_others
 from adamslite.symbolic.duals import Dual, Number, power
 from adamslite.symbolic.scope import ORIGIN
 from adamslite.symbolic.types import Expr
@@ -75,6 +77,19 @@ class NumberReader(NumberScope):
             raise Unmeasured
         return FUNCTIONS[call.name].body(self, *self.arguments(call))  # type: ignore[arg-type]
 
+    def _of_variable(self, key: Key) -> Expr:
+        """The value of a VARIABLE; those that it takes are known before, each found once for a
+        time, however many take it.
+        """
+        if self._known_at != self.now:
+            self._variables.clear()
+            self._known_at = self.now
+        for each in behind_others([key], self.model.variables_of, self._variables):
+            if each in self.model.circular:
+                raise Unmeasured
+            self._variables[each] = self.value(self.model.variable(each).function)
+        return self._variables[key]
+
     def arguments(self, call: Call) -> list[Any]:
         """What the body of a function gets: frames, references, whole numbers, values."""
         function = FUNCTIONS[call.name]
@@ -93,9 +108,7 @@ class NumberReader(NumberScope):
         """What functions measure of a VARIABLE, DIFF, SENSOR or SPLINE."""
         found = self.model.element(id.kind, id.id)
         if id.kind == "VARIABLE":
-            if id.id in self.model.circular:
-                raise Unmeasured
-            return SimpleNamespace(value=self.value(found.function))
+            return SimpleNamespace(value=self._of_variable(id.id))
         if id.kind == "DIFF":
             return SimpleNamespace(state=Dual((*(found.ic or ()), 0.0)[0]), rate=Dual(0.0))
         if id.kind == "SENSOR":

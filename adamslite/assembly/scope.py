@@ -90,6 +90,8 @@ class NumberScope:
         self.width = WIDTH * room
         self.now = 0.0
         self._points: dict[Frame, tuple[np.ndarray, Any, np.ndarray, Any]] = {}
+        self._variables: dict[Key, Expr] = {}
+        self._known_at = self.now
 
     # what markers measure
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterable, Iterator
 from math import dist
 from operator import ne
 
@@ -28,6 +28,7 @@ from adamslite.language.expression import Call, Mode, Node, Num, Ref, calls, wal
 from adamslite.language.function import FUNCTIONS
 from adamslite.language.interfaces import Key
 from adamslite.language.statement import STATEMENTS, Statement, expressions
+from adamslite.model.cycles import in_loops, of_each_other
 
 POINT = "POINT_MASS"
 TURNING = ("ORIENTATION", "PARALLEL_AXES", "PERPENDICULAR")
@@ -196,17 +197,29 @@ def _form(deck: Deck, motion: Motion) -> Iterator[Diagnostic]:
 
 @needs("VARIABLE")
 def functions_of_time(deck: Deck) -> Iterator[Diagnostic]:
+    varying = variables_not_of_time(deck)
     for motion in deck.of(Motion):
-        culprit = not_of_time(deck, motion.function)
+        culprit = not_of_time(deck, motion.function, varying)
         if culprit:
             yield diagnose_inside(motion, culprit, "motion-not-of-time", "function", word=culprit)
 
 
-def not_of_time(deck: Deck, node: Node, inside: tuple[Key, ...] = ()) -> str | None:
-    """What in an expression depends on more than TIME, itself or through variables.
+def variables_not_of_time(deck: Deck) -> set[Key]:
+    """VARIABLEs that depend on more than TIME, or on themselves."""
+    variables = {each.key: each for each in deck.of(Variable)}
+    uses = {
+        key: {ref.id for ref in _measured(each.function) if ref.kind == "VARIABLE"}
+        & variables.keys()
+        for key, each in variables.items()
+    }
+    without = in_loops(uses) | {
+        key for key, each in variables.items() if not_of_time(deck, each.function, set())
+    }
+    return set(uses) - of_each_other({key: uses[key] for key in uses.keys() - without})
 
-    ``inside``: the variables whose expressions it is part of.
-    """
+
+def not_of_time(deck: Deck, node: Node, varying: Container[Key]) -> str | None:
+    """What in an expression depends on more than TIME, itself or through ``varying`` VARIABLEs."""
     for each in walk(node):
         if isinstance(each, Mode):
             return "MODE"
@@ -217,12 +230,14 @@ def not_of_time(deck: Deck, node: Node, inside: tuple[Key, ...] = ()) -> str | N
                 continue  # SENVAL does not change within an analysis
             if ref.kind != "VARIABLE":
                 return each.name
-            variable = deck.find(Variable, ref.id)
-            if variable is None:
-                continue
-            if ref.id in inside or not_of_time(deck, variable.function, (*inside, ref.id)):
+            if ref.id in varying and (variable := deck.find(Variable, ref.id)):
                 return variable.label
     return None
+
+
+def _measured(node: Node) -> Iterator[Ref]:
+    """What an expression refers to."""
+    return (each for each in walk(node) if isinstance(each, Ref))
 
 
 def motion_starts(deck: Deck) -> Iterator[Diagnostic]:
@@ -238,22 +253,25 @@ def delayed_constraints(deck: Deck) -> Iterator[Diagnostic]:
     """A delayed value may jump, which a constraint cannot follow."""
     for each in deck.statements if deck.delays else ():
         if isinstance(each, Motion | Constraint):
-            found = next((c for node in expressions(each) for c in _past(deck, node, ())), None)
+            found = next(_past(deck, expressions(each)), None)
             if found is not None:
                 yield diagnose_inside(
                     each, found.name, "delayed-constraint", "function", word=found.name
                 )
 
 
-def _past(deck: Deck, node: Node, inside: tuple[Key, ...]) -> Iterator[Call]:
-    """Calls that take past values, also in the variables of an expression."""
-    for call in calls(node):
-        if FUNCTIONS[call.name].takes_past:
-            yield call
-        elif call.name == "VARVAL" and isinstance(call.args[0], Ref):
-            variable = deck.find(Variable, call.args[0].id)
-            if variable is not None and variable.key not in inside:
-                yield from _past(deck, variable.function, (*inside, variable.key))
+def _past(deck: Deck, nodes: Iterable[Node]) -> Iterator[Call]:
+    """Calls that take past values, also in the variables of expressions."""
+    pending, seen = list(nodes), set[Key]()
+    while pending:
+        for call in calls(pending.pop()):
+            if FUNCTIONS[call.name].takes_past:
+                yield call
+            elif call.name == "VARVAL" and isinstance(call.args[0], Ref):
+                variable = deck.find(Variable, call.args[0].id)
+                if variable is not None and variable.key not in seen:
+                    seen.add(variable.key)
+                    pending.append(variable.function)
 
 
 def curves(deck: Deck) -> Iterator[Diagnostic]:

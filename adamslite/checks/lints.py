@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence
 from math import degrees, hypot, isfinite, pi
 from typing import TYPE_CHECKING
 
-from adamslite.checks.constraints import not_of_time
+from adamslite.checks.constraints import not_of_time, variables_not_of_time
 from adamslite.checks.rule import Rule, needs
 from adamslite.deck.deck import Deck
 from adamslite.deck.statement_diagnostics import diagnose, diagnose_all, diagnose_inside
@@ -28,6 +28,7 @@ from adamslite.language.statement import Statement
 from adamslite.language.units import G0, INCH, LENGTH, TIME
 
 if TYPE_CHECKING:
+    from adamslite.assembly.corners import Corners
     from adamslite.model.model import Model
 
 # What is written as a plain number, without D for degrees.
@@ -158,30 +159,52 @@ def kinks(deck: Deck) -> Iterator[Diagnostic]:
     held: list[Motion | Gcon] = [*deck.of(Motion), *deck.of(Gcon)]
     if not any(_may_jump(each.function) for each in held):
         return
-    from adamslite.assembly.corners import suspects
+    from adamslite.assembly.corners import Corners
     from adamslite.model.model import Model
 
-    model, until = Model(deck), run_end(deck)
+    search, until, varying = Corners(Model(deck)), run_end(deck), variables_not_of_time(deck)
     for each in held:
         least = SMOOTH[each.level] if isinstance(each, Motion) else SMOOTH["DISPLACEMENT"]
-        whole = (
-            [each.function] if isinstance(each, Motion) else suspects(model, each.function, least)
-        )
-        for part in list(whole):
-            found, when = _corner(model, part, least, until)
+        for part in _parts(search.model, each, least, varying):
+            found, when = _corner(search, part, least, until, varying)
             if found:
                 yield diagnose_inside(each, found, "kink", "function", word=found, when=when)
                 break
 
 
-def _corner(model: Model, node: Node, least: int, until: float) -> tuple[str, str]:
-    """The function by which an expression may have a corner, with the time where it is known."""
-    from adamslite.assembly.corners import corner, suspects
+def _parts(
+    model: Model, statement: Motion | Gcon, least: int, varying: Container[Key]
+) -> Iterator[Node]:
+    """Expressions in which a corner counts: the FUNCTION of a MOTION; calls in that of a GCON, but
+    for those inside of another one that TIME alone determines.
+    """
+    from adamslite.assembly.corners import suspects
 
-    found = next((call.name for call in suspects(model, node, least)), "")
-    if not found or not until or not_of_time(model.deck, node):
+    if isinstance(statement, Motion):
+        yield statement.function
+        return
+    inside: set[int] = set()
+    for call in suspects(model, statement.function, least):
+        if id(call) in inside:
+            continue
+        if not not_of_time(model.deck, call, varying):
+            inside |= {id(each) for each in suspects(model, call, least)}
+        yield call
+
+
+def _corner(
+    search: Corners, node: Node, least: int, until: float, varying: Container[Key]
+) -> tuple[str, str]:
+    """The function by which an expression may have a corner, with the time where it is known."""
+    from adamslite.assembly.corners import TooManyOperations, suspects
+
+    found = next((call.name for call in suspects(search.model, node, least)), "")
+    if not found or not until or not_of_time(search.model.deck, node, varying):
         return found, ""
-    at = corner(model, node, least, until)
+    try:
+        at = search.first(node, least, until)
+    except TooManyOperations:
+        return "", ""  # no warning is better than a false one
     return (at[0], f" at {at[1]:.4g}") if at else ("", "")
 
 
