@@ -28,7 +28,6 @@ from adamslite.analyses.dynamics.planar_reduction import in_its_plane
 from adamslite.analyses.dynamics.sensors import AT_TIMES, require_none
 from adamslite.analyses.initial.conditions import consistent_velocities, without_accelerations
 from adamslite.analyses.initial.redundancy import badly_chosen, leave_out_redundant
-from adamslite.analyses.session.in_turn import in_turn
 from adamslite.analyses.session.session_state import SessionState
 from adamslite.analyses.session.setting_commands import changes_the_model, updated
 from adamslite.analyses.setup.output_times import largest_step, output_times
@@ -316,6 +315,8 @@ class Session(SessionState):
             return outcome
 
         make_ready_to_rest(system, self.statics)
+        from adamslite.analyses.session.in_turn import in_turn
+
         self.outcome = in_turn(self, times, reach, RECORD_AT_REST, True)
         self.ways_to_fall = int(system.report.ways_to_fall)
 
@@ -325,6 +326,7 @@ class Session(SessionState):
         if system.dof > 0:
             self.outcome = Outcome.NOT_KINEMATIC
             return
+        from adamslite.analyses.session.in_turn import in_turn
         from adamslite.analyses.statics.kinematic import reached
 
         def reach(row: int) -> Outcome:
