@@ -139,3 +139,15 @@ def test_a_name_that_will_not_do_is_refused(place: str, new: str, reason: str) -
     content = Document("x.adm", "deck").update(NAMED)
     with pytest.raises(UsageError, match=reason):
         renamed_in(content, NAMED.index(place), new)
+
+
+def test_mistakes_of_form_move_with_their_statement() -> None:
+    """A statement with mistakes is not parsed again, but its messages name its present place."""
+    document = Document("x.adm", "deck")
+    faulty = "PART/2, MASS=1, =2, QP=(1\nMARKER/5, PART=2,, QP=1,2,3\n"
+    document.update(f"a title\n{faulty}")
+    text = f"a title\nPART/1, GROUND\nMARKER/1, PART=1\n{faulty}"
+    found = document.update(text)
+    assert said(found) == said(Document("x.adm", "deck").update(text))
+    lines = {each.span.line for each in found.diagnostics if each.span}
+    assert {4, 5} <= lines

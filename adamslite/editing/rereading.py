@@ -22,7 +22,7 @@ from adamslite.reading.entries import Entry, gives_values
 from adamslite.reading.statement_reader import Reading
 from adamslite.syntax.lines import join, view_name
 from adamslite.syntax.syntax_errors import Faults, Syntax, statement_syntax
-from adamslite.syntax.tokens import NEW_STATEMENT, Lexeme, scan
+from adamslite.syntax.tokens import NEW_STATEMENT, Lexeme, scan, shifted
 from adamslite.syntax.typeset import is_typeset
 
 Found = Key | list[Key] | None
@@ -55,13 +55,17 @@ class Notebook(Names):
         self.uses.append(Use(kind, key, start, end))
 
 
+MOST_KEPT, LARGE = 1000, 1 << 16
+"""Statements of a stretch that is kept, and characters of one with mistakes in it."""
+
+
 class Cut(NamedTuple):
-    """A stretch of text without mistakes of form; offsets count from its start.
+    """The statements of a stretch of text and mistakes of form; offsets count from its start.
 
     ``name_behind`` is the adams_view_name that its last comment gives to the next statement.
     """
 
-    statements: list[Syntax]
+    statements: list[tuple[Syntax | None, Faults]]
     name_behind: str | None
 
 
@@ -97,6 +101,7 @@ class Rereading(Reading):
         self._statements: dict[tuple[object, ...], Known] = {}
         self._asked: list[tuple[str, Key, Found]] = []
         self._checked = False
+        self._name_behind: str | None = None
         self._ground_known: tuple[Key | None] | None = None
 
     # ---- first pass ---------------------------------------------------------------------------
@@ -110,39 +115,41 @@ class Rereading(Reading):
             cut = NEW_STATEMENT.search(text, start)
             end = cut.end() if cut else len(text)
             stretch = text[start:end]
-            known = self._cuts.get(stretch) or self.memory.cuts.get(stretch) or self._cut(stretch)
-            found = self._known(known, start) if known else self._read_cut(stretch, start)
+            known = self._cuts.get(stretch) or self.memory.cuts.get(stretch)
             if known:
                 self._cuts[stretch] = known
+            found = self._known(known, start) if known else self._read_cut(stretch, start)
             for number, (syntax, faults) in enumerate(found):
                 if syntax and number == 0 and name:
                     syntax = syntax._replace(name=name)
                 yield syntax, faults
-            name = known.name_behind if known else _name_behind([*scan(stretch)][-1])
+            name = known.name_behind if known else self._name_behind
             start = end
 
     def _known(self, cut: Cut, start: int) -> Iterator[tuple[Syntax | None, Faults]]:
         for each in cut.statements:
-            yield _shifted(each, start), []
+            yield _shifted(each, start)
 
     def _read_cut(self, stretch: str, start: int) -> Iterator[tuple[Syntax | None, Faults]]:
-        """The statements of a stretch with mistakes, which is not kept."""
-        shifted = (
-            [(kind, word, at + start) for kind, word, at in tokens] for tokens in scan(stretch)
-        )
-        return map(statement_syntax, join(shifted))
+        """The statements of a stretch as far as they are asked for; kept where all of them are."""
+        last: list[Lexeme] = []
+        kept: list[tuple[Syntax | None, Faults]] | None = []
 
-    def _cut(self, stretch: str) -> Cut | None:
-        """The statements of a stretch; None when there are mistakes."""
-        tokens = [*scan(stretch)]
-        name = _name_behind(tokens[-1])
-        statements = []
-        for logical in join(tokens):
-            syntax, faults = statement_syntax(logical)
-            if faults or syntax is None:
-                return None
-            statements.append(syntax)
-        return Cut(statements, name)
+        def scanned() -> Iterator[list[Lexeme]]:
+            nonlocal last
+            for each in scan(stretch):
+                last = each
+                yield each
+
+        for found in map(statement_syntax, join(scanned())):
+            if kept is not None and (len(kept) == MOST_KEPT or found[1] and len(stretch) > LARGE):
+                kept = None
+            if kept is not None:
+                kept.append(found)
+            yield _shifted(found, start)
+        self._name_behind = _name_behind(last)
+        if kept is not None:
+            self._cuts[stretch] = Cut(kept, self._name_behind)
 
     # ---- second pass --------------------------------------------------------------------------
 
@@ -215,6 +222,8 @@ def _name_behind(tokens: list[Lexeme]) -> str | None:
     return view_name(text) if kind in ("LINE_END", "SEMICOLON") else None
 
 
-def _shifted(syntax: Syntax, offset: int) -> Syntax:
-    tokens = [(kind, text, at + offset) for kind, text, at in syntax.tokens]
-    return syntax._replace(tokens=tokens)
+def _shifted(found: tuple[Syntax | None, Faults], offset: int) -> tuple[Syntax | None, Faults]:
+    """A statement and the mistakes in it, at another place."""
+    syntax, faults = found
+    moved = [(mistake, shifted(tokens, offset)) for mistake, tokens in faults]
+    return syntax and syntax._replace(tokens=shifted(syntax.tokens, offset)), moved

@@ -11,45 +11,45 @@ number and serves every statement written the same way.
 
 from __future__ import annotations
 
-import pickle
 import re
-import sys
 from array import array
+from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from functools import cache, lru_cache
 from hashlib import sha256
-from io import BytesIO
 from itertools import accumulate
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import lark
-from lark import Lark, Token, Transformer
-from lark.exceptions import UnexpectedToken
-from lark.lexer import Lexer
-
 from adamslite import resources
 from adamslite.caching.entries import recall
+from adamslite.syntax import parser_tables
+from adamslite.syntax.parser_tables import Tables, Unexpected, made, parse
 
 Tree = tuple[Any, ...]
 """An expression: ``(rule, number of its token, branch, branch ...)``."""
 
 
+DECK = "deck", "statement"
+"""The grammar of statements and its start."""
 HEAD = ("NAME", "SLASH")
 LONG, PIECE = 512, 256
 """Tokens of a statement above which it is parsed piece by piece, and of a piece."""
-SEPARATORS = ("COMMA", "BACKSLASH")
 MOST_OPEN = 1000
 """Brackets inside each other; expressions of so many are rejected in any case."""
 BRACKETS = {"LPAR": 1, "LSQB": 1, "RPAR": -1, "RSQB": -1}
-CODES = {
+CODES = defaultdict(lambda: "x", {
     "LPAR": "(", "LSQB": "[", "RPAR": ")", "RSQB": "]", "COMMA": ",", **dict.fromkeys(
         "NAME NUMBER QUOTED PLUS MINUS POWER STAR SLASH COLON OTHER".split(), "a"
     )
-}  # fmt: skip
+})  # fmt: skip
 """Kinds of tokens as letters: brackets, commas, and values, which may follow each other."""
+CUTS = defaultdict(lambda: "a", {"COMMA": ",", "BACKSLASH": ";", **dict.fromkeys(BRACKETS, "|")})
+"""The same where a statement may be cut."""
+BETWEEN, EITHER = re.compile(r"(?<![,;])[,;](?=[^,])"), re.compile(r"\|")
+"""A separator between items, and a bracket."""
 CLOSED_BY = {"(": ")", "[": "]"}
-TURNS = re.compile(r"[()\[\]x]")
+TURNS = re.compile(r"[()\[\]]|x+")
 """Brackets, and what may not be inside them."""
 
 
@@ -108,106 +108,76 @@ class Items(Sequence[Item]):
         return Item(key, start, end, bool(closed))
 
 
-class _Replay(Lexer):
-    """Hands token kinds to the parser; each token knows its number."""
+class _Forms:
+    """Builds items and trees of tokens, which are given by their numbers."""
 
-    def __init__(self, conf: object) -> None:
-        pass
+    def __init__(self, kinds: Sequence[str]) -> None:
+        self.kinds = kinds
 
-    # A lexer that parses no text receives what the parser was given, whatever Lark's types say.
-    def lex(self, kinds: Sequence[str]) -> Iterator[Token]:  # type: ignore[override]
-        for number, kind in enumerate(kinds):
-            yield Token(kind, "", start_pos=number)
+    def item(self, tokens: list[int]) -> Item:
+        first, end = tokens[0], tokens[-1] + 1
+        if len(tokens) > 1 and self.kinds[tokens[1]] == "EQUAL":
+            return Item(first, first + 2, end, False)
+        return Item(-1, first, end, False)
 
-
-def _number(token: Token) -> int:
-    """The number of a token of :class:`_Replay`."""
-    assert token.start_pos is not None
-    return token.start_pos
-
-
-class _Forms(Transformer[Token, Any]):
-    """Builds items and trees while parsing."""
-
-    def item(self, tokens: list[Token]) -> Item:
-        first, last = _number(tokens[0]), _number(tokens[-1])
-        if len(tokens) > 1 and tokens[1].type == "EQUAL":
-            return Item(first, first + 2, last + 1, False)
-        return Item(-1, first, last + 1, False)
-
-    def separator(self, tokens: list[Token]) -> Token:
+    def separator(self, tokens: list[int]) -> int:
         return tokens[0]
 
-    def statement(self, children: list[Item | Token]) -> tuple[Item, ...]:
+    def statement(self, children: list[Item | int]) -> tuple[Item, ...]:
         items: list[Item] = []
         for child in children:
             if isinstance(child, Item):
                 items.append(child)
-            elif child.type == "BACKSLASH":
+            elif self.kinds[child] == "BACKSLASH":
                 items[-1] = items[-1]._replace(closed=True)
         return tuple(items)
 
-    def operation(self, children: tuple[Tree, Token, Tree]) -> Tree:
+    def operation(self, children: tuple[Tree, int, Tree]) -> Tree:
         left, token, right = children
-        return ("operation", _number(token), left, right)
+        return ("operation", token, left, right)
 
-    def negation(self, children: tuple[Token, Tree]) -> Tree:
-        return ("negation", _number(children[0]), children[1])
+    def negation(self, children: tuple[int, Tree]) -> Tree:
+        return ("negation", children[0], children[1])
 
-    def same(self, children: tuple[Token, Tree, Token]) -> Tree:
+    def same(self, children: tuple[int, Tree, int]) -> Tree:
         return children[1]
 
-    def number(self, children: list[Token]) -> Tree:
-        return ("number", _number(children[0]))
+    def number(self, children: list[int]) -> Tree:
+        return ("number", children[0])
 
-    def name(self, children: list[Token]) -> Tree:
-        return ("name", _number(children[0]))
+    def name(self, children: list[int]) -> Tree:
+        return ("name", children[0])
 
     def arguments(self, children: list[Any]) -> tuple[str, list[Tree]]:
-        separators = "".join(":" if c.type == "COLON" else "," for c in children[1::2])
+        separators = "".join(":" if self.kinds[c] == "COLON" else "," for c in children[1::2])
         return separators, children[::2]
 
     def call(self, children: list[Any]) -> Tree:
         separators, branches = children[2] if len(children) == 4 else ("", [])
-        return ("call", _number(children[0]), separators, *branches)
-
-
-FORM: dict[str, Any] = {"parser": "lalr", "lexer": _Replay, "keep_all_tokens": True}
+        return ("call", children[0], separators, *branches)
 
 
 @cache
-def _parser(grammar: str, start: str) -> Lark:
-    """The parser of ``grammar/<grammar>.lark``, built when first needed; its tables are kept."""
+def _parser(grammar: str, start: str) -> Tables:
+    """The tables of ``grammar/<grammar>.lark``, made when first needed and kept."""
     folder = resources.find("grammar")
-
-    def tables() -> bytes:
-        found = BytesIO()
-        Lark.open(str(folder / f"{grammar}.lark"), start=start, **FORM).save(found)
-        return found.getvalue()
-
-    kept = pickle.loads(recall(f"{grammar}{_grammars(folder)}.parser", tables))
-    return Lark._load_from_dict(kept["data"], kept["memo"], transformer=_Forms())
+    name = f"{grammar}{_grammars(folder)}.parser"
+    return Tables.kept(recall(name, lambda: made(folder / f"{grammar}.lark", start).content))
 
 
 @cache
 def _grammars(folder: Path) -> str:
-    """Digest of what parser tables are made from: the grammars, which import each other, and Lark.
-
-    The tables name classes of this module, so it belongs to them.
-    """
-    files = sorted(folder.glob("*.lark"))
-    texts = [each.read_bytes() for each in (*files, Path(__file__))]
-    versions = f"{lark.__version__} {sys.implementation.cache_tag}".encode()
-    return sha256(b"\0".join((versions, *texts))).hexdigest()[:32]
+    """Digest of what parser tables are made from: code and grammars, which import each other."""
+    files = [*sorted(folder.glob("*.lark")), Path(parser_tables.__file__)]
+    return sha256(b"\0".join(each.read_bytes() for each in files)).hexdigest()[:32]
 
 
-def _form(parser: Lark, kinds: tuple[str, ...]) -> Any:
+def _form(parser: Tables, kinds: tuple[str, ...]) -> Any:
     """What :class:`_Forms` makes of the whole, or where the kinds do not fit."""
     try:
-        return parser.parse(kinds)
-    except UnexpectedToken as unexpected:
-        at = unexpected.token.start_pos
-        return Fault(len(kinds) if unexpected.token.type == "$END" else at)
+        return parse(parser, kinds, _Forms(kinds))
+    except Unexpected as unexpected:
+        return Fault(unexpected.args[0])
 
 
 def statement_form(kinds: tuple[str, ...]) -> Sequence[Item] | Fault:
@@ -218,7 +188,7 @@ def statement_form(kinds: tuple[str, ...]) -> Sequence[Item] | Fault:
 @lru_cache(maxsize=8192)
 def _short_form(kinds: tuple[str, ...]) -> tuple[Item, ...] | Fault:
     """The items of a statement that is parsed as a whole."""
-    return _form(_parser("deck", "statement"), kinds)
+    return _form(_parser(*DECK), kinds)
 
 
 def _long_form(kinds: tuple[str, ...]) -> Items | Fault:
@@ -233,7 +203,7 @@ def _long_form(kinds: tuple[str, ...]) -> Items | Fault:
     if deep is not None:
         before = statement_form(kinds[:deep])
         return Fault(min(deep, before.at)) if isinstance(before, Fault) else Fault(deep)
-    code = "".join([CODES.get(kind, "x") for kind in kinds])
+    code = "".join(map(CODES.__getitem__, kinds))
     flat = _flat(code)
     seen = _without_runs(flat)
     if len(seen) == len(kinds):
@@ -243,7 +213,8 @@ def _long_form(kinds: tuple[str, ...]) -> Items | Fault:
     items = Items()
     start = len(HEAD)
     for end, following in _ends(shorter):
-        form = _short_form(HEAD + shorter[start:end])
+        piece = HEAD + shorter[start:end]
+        form = _short_form(piece) if len(piece) <= LONG else _form(_parser(*DECK), piece)
         shift = start - len(HEAD)
         if isinstance(form, Fault):
             at = form.at + shift
@@ -305,16 +276,17 @@ def _ends(kinds: tuple[str, ...]) -> Iterator[tuple[int, int]]:
     """Where pieces of a statement end and the next ones begin: at separators between items, and
     at its own end.  A backslash belongs to the item before it.
     """
-    depth, least = 0, len(HEAD) + PIECE
-    for at, kind in enumerate(kinds):
-        if kind in SEPARATORS:
-            between = kinds[at - 1] not in SEPARATORS and kinds[at + 1 : at + 2] != ("COMMA",)
-            if depth == 0 and at >= least and between and at + 1 < len(kinds):
-                yield at + (kind == "BACKSLASH"), at + 1
-                least = at + PIECE
-        elif kind in BRACKETS:
-            depth += BRACKETS[kind]
-    yield len(kinds), len(kinds)
+    code = "".join(map(CUTS.__getitem__, kinds))
+    depth, least, end = 0, len(HEAD) + PIECE, len(kinds)
+    brackets = ((turn.start(), BRACKETS[kinds[turn.start()]]) for turn in EITHER.finditer(code))
+    for turn, deeper in (*brackets, (end, 0)):
+        # One more letter is seen, which may not be a comma.
+        while depth == 0 and (found := BETWEEN.search(code, least, turn + 1)):
+            at = found.start()
+            yield at + (kinds[at] == "BACKSLASH"), at + 1
+            least = at + PIECE
+        depth, least = depth + deeper, max(least, turn + 1)
+    yield end, end
 
 
 @lru_cache(maxsize=8192)
@@ -326,5 +298,5 @@ def expression_form(kinds: tuple[str, ...]) -> Tree | Fault:
 @cache
 def terminals() -> dict[str, str]:
     """Regular expressions of the terminals of the deck grammar, in the order of the file."""
-    found = {t.name: t.pattern.to_regexp() for t in _parser("deck", "statement").terminals}
+    found = dict(_parser(*DECK).terminals)
     return {"BLANK": found.pop("BLANK"), **found}

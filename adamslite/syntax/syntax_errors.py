@@ -223,7 +223,8 @@ def _without_item(tokens: Tokens, at: int) -> tuple[Tokens, Tokens]:
     left, item, right = tokens[:start], tokens[start:end], tokens[end:]
     while len(left) > 2 and left[-1][0] in _SEPARATORS:
         left.pop()
-    right = right[next((n for n, each in enumerate(right) if each[0] not in _SEPARATORS), None) :]
+    kinds = enumerate(kinds_of(right))
+    right = right[next((n for n, kind in kinds if kind not in _SEPARATORS), None) :]
     if len(left) > 2 and right:
         left.append(("COMMA", "", right[0][2]))
     return lengthened(left, right), item

@@ -65,8 +65,14 @@ class _Kinds(dict[str, str]):
 
     def __missing__(self, text: str) -> str:
         found = _classifier().match(text)
-        kind = self[text] = str(found and found.lastgroup)
+        kind = str(found and found.lastgroup)
+        if len(text) <= AHEAD:
+            self[text] = kind
         return kind
+
+
+KINDS, MOST_KINDS = _Kinds(), 10_000
+"""Kinds of tokens of all texts, so that texts read piece by piece share them, and how many."""
 
 
 class Lexemes(MutableSequence[Lexeme]):
@@ -134,6 +140,15 @@ def lengthened(tokens: Tokens, more: Tokens) -> Tokens:
     return tokens
 
 
+def shifted(tokens: Tokens, by: int) -> Tokens:
+    """The same tokens in a text with so many more characters before them."""
+    if isinstance(tokens, Lexemes):
+        return Lexemes.of(
+            tokens.kinds, tokens.texts, array("I", [at + by for at in tokens.offsets])
+        )
+    return [(kind, text, at + by) for kind, text, at in tokens]
+
+
 def scan(text: str, start: int = 0) -> Iterator[list[Lexeme]]:
     """The tokens of ``text`` from offset ``start``; any character belongs to some token.
 
@@ -149,9 +164,11 @@ def scan(text: str, start: int = 0) -> Iterator[list[Lexeme]]:
 
 
 def _scan(text: str, start: int) -> Iterator[list[Lexeme]]:
-    kinds = _Kinds()
+    kinds = KINDS
     size = STRETCH
     while start < len(text):
+        if len(kinds) > MOST_KINDS:
+            kinds.clear()
         cut = NEW_LINE.search(text, start + size, start + 2 * size)
         end = cut.end() if cut else min(start + 2 * size, len(text))
         words = [*map(intern, _scanner().findall(text, start, end))]
