@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 import pytest
 from pytest import approx
-from scenes import GROUND, SPRING, done, options
+from scenes import GROUND, SPRING, done, options, system
 
 import adamslite as al
+from adamslite.analyses.clock import stops as stops_module
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 
@@ -76,3 +77,12 @@ def test_a_largest_step_beyond_the_run_is_no_limit(method: str) -> None:
     runs = [al.simulate(deck, end=1.0, steps=4, integrator=method, hmax=h) for h in (1.0, 1e300)]
     assert all(each.outcome is al.Outcome.DONE for each in runs)
     assert (runs[0].values == runs[1].values).all()
+
+
+@pytest.mark.parametrize("block", (3, 2**15))
+def test_changes_do_not_depend_on_how_many_are_found_at_once(block: int, monkeypatch) -> None:
+    """A floor that passes 39 numbers beside a step; the root of a negative number changes never."""
+    monkeypatch.setattr(stops_module, "BLOCK", block)
+    run_of = system(moved_by("AINT(40*TIME)+IF(TIME-0.5126: 0, 1, 1)+AINT(SQRT(TIME-2))"))
+    found = stops_module.stops(run_of, np.array([0.0, 1.0]))
+    assert found == approx(np.sort([*np.arange(1, 41) / 40, 0.5126]), abs=1e-12)

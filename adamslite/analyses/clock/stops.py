@@ -11,7 +11,7 @@ are found before the run:
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -112,30 +112,69 @@ def _passed(program: Program, times: np.ndarray) -> float:
     return float(np.abs(np.diff(values[np.isfinite(values)])).sum())
 
 
+class _Spans(NamedTuple):
+    """Spans of time (n,) and the branches of all guards at their ends (n, bytes)."""
+
+    below: np.ndarray
+    above: np.ndarray
+    left: np.ndarray
+    right: np.ndarray
+
+    def of(self, which: np.ndarray | slice) -> _Spans:
+        """Some of them."""
+        return _Spans(*(each[which] for each in self))
+
+    def are_fine(self, least: float) -> np.ndarray:
+        """Which of them are as brief as round-off, (n,)."""
+        middle = 0.5 * (self.below + self.above)
+        brief = self.above - self.below <= least
+        return brief | (middle <= self.below) | (middle >= self.above)
+
+
 def _changes(system: System, grid: np.ndarray, over: Over = None) -> np.ndarray:
-    """Every change between two times of the grid, sorted; a floor may pass several numbers."""
-    below, above = grid[:-1], grid[1:]
-    found = [below[:0]]
-    left, right = _branches(system, below), _branches(system, above)
-    changed = (left != right).any(axis=1)
-    below, above, left, right = (x[changed] for x in (below, above, left, right))
-    while len(below):
-        if over is not None and over():
-            raise Overspent
-        middle = 0.5 * (below + above)
-        fine = above - below <= ROUND_OFF * (grid[-1] - grid[0])
-        fine |= (middle <= below) | (middle >= above)
-        found.append(above[fine])
-        if np.count_nonzero(~fine) > MOST + len(grid):  # the rest is reported as too many
-            break
-        below, above, left, right, middle = (x[~fine] for x in (below, above, left, right, middle))
-        inner = _branches(system, middle)
-        lower, upper = (left != inner).any(axis=1), (inner != right).any(axis=1)
-        below = np.concatenate([below[lower], middle[upper]])
-        above = np.concatenate([middle[lower], above[upper]])
-        left = np.concatenate([left[lower], inner[upper]])
-        right = np.concatenate([inner[lower], right[upper]])
+    """Every change between two times of the grid, sorted; a floor may pass several numbers.
+
+    Branches of all spans are most of the memory: a block of spans is dropped when it is halved.
+    """
+    least = ROUND_OFF * (grid[-1] - grid[0])
+    found = [grid[:0]]
+    blocks = [_changed(system, grid[at : at + BLOCK + 1]) for at in range(0, len(grid) - 1, BLOCK)]
+    while blocks:
+        for at, block in enumerate(blocks):
+            fine = block.are_fine(least)
+            found.append(block.above[fine])
+            blocks[at] = block.of(~fine)
+        if sum(len(block.below) for block in blocks) > MOST + len(grid):
+            break  # the rest is reported as too many
+        halves: list[_Spans] = []
+        while blocks:
+            if over is not None and over():
+                raise Overspent
+            half = _halved(system, blocks.pop())
+            halves += [half.of(slice(at, at + BLOCK)) for at in range(0, len(half.below), BLOCK)]
+        blocks = halves
     return np.unique(np.concatenate(found))
+
+
+def _changed(system: System, times: np.ndarray) -> _Spans:
+    """The spans between times in which a guard changes."""
+    branches = _branches(system, times)
+    spans = _Spans(times[:-1], times[1:], branches[:-1], branches[1:])
+    return spans.of((spans.left != spans.right).any(axis=1))
+
+
+def _halved(system: System, spans: _Spans) -> _Spans:
+    """The halves of spans in which a guard changes."""
+    below, above, left, right = spans
+    middle = 0.5 * (below + above)
+    inner = _branches(system, middle)
+    lower, upper = (left != inner).any(axis=1), (inner != right).any(axis=1)
+    return _Spans(
+        np.concatenate([below[lower], middle[upper]]),
+        np.concatenate([middle[lower], above[upper]]),
+        np.concatenate([left[lower], inner[upper]]),
+        np.concatenate([inner[lower], right[upper]]),
+    )
 
 
 def _lasting(system: System, found: np.ndarray, start: float, end: float) -> np.ndarray:
@@ -149,11 +188,11 @@ def _lasting(system: System, found: np.ndarray, start: float, end: float) -> np.
     size = np.max([np.abs(each).max(axis=(0, 1)) for each in _within(system, ends)], axis=0)
     # Beside a change a value is round-off, of what may be much larger than what is left of it.
     noise = np.clip(_beside(system, found, end - start), NOISE * size, LOUD * size)
-    looked = [
-        ((np.abs(each) <= noise).all(axis=1), _branch(system, each[:, len(WITHIN) // 2]))
-        for each in _within(system, ends)
-    ]
-    zero, branch = (np.concatenate(each) for each in zip(*looked, strict=True))
+    zero = np.empty((len(width), len(noise)), bool)
+    branch = np.empty(zero.shape)
+    for at, each in zip(range(0, len(width), BLOCK), _within(system, ends), strict=True):
+        zero[at : at + BLOCK] = (np.abs(each) <= noise).all(axis=1)
+        branch[at : at + BLOCK] = _branch(system, each[:, len(WITHIN) // 2])
     for guard in np.flatnonzero((zero[1:] & zero[:-1]).any(axis=0)):
         spans = np.flatnonzero(zero[:, guard])
         for run in np.split(spans, np.flatnonzero(np.diff(spans) > 1) + 1):
@@ -172,17 +211,31 @@ def _within(system: System, ends: np.ndarray) -> Iterator[np.ndarray]:
 def _beside(system: System, found: np.ndarray, length: float) -> np.ndarray:
     """Sixteen times the largest value of each guard beside its own changes, (guards,)."""
     near = ROUND_OFF * max(length, float(np.abs(found).max()))
+    blocks = [found[at : at + BLOCK] for at in range(0, len(found), BLOCK)]
+    return 16.0 * np.max([_largest(system, each, near) for each in blocks], axis=0)
+
+
+def _largest(system: System, found: np.ndarray, near: float) -> np.ndarray:
+    """The largest value of each guard so near to changes of its own, (guards,)."""
     before, behind = sample(system, found - near), sample(system, found + near)
     changes = _branch(system, before) != _branch(system, behind)
     largest = np.maximum(np.abs(before), np.abs(behind))
-    return 16.0 * np.where(changes, largest, 0.0).max(axis=0)
+    return np.where(changes, largest, 0.0).max(axis=0)
 
 
 def _branches(system: System, times: np.ndarray) -> np.ndarray:
-    """Branch of every guard of the clock at ``times``, (nt, guards)."""
-    found = np.empty((len(times), len(system.guarded["clock"])))
+    """Branches of all guards of the clock at ``times`` as bytes to compare, (nt, bytes): eight of
+    each floor and one of any other guard.
+    """
+    floors = system.numbering.kind[: len(system.guarded["clock"])] == FLOOR
+    wide = 8 * np.count_nonzero(floors)
+    found = np.empty((len(times), wide + np.count_nonzero(~floors)), np.uint8)
     for at in range(0, len(times), BLOCK):
-        found[at : at + BLOCK] = _branch(system, sample(system, times[at : at + BLOCK]))
+        branch = _branch(system, sample(system, times[at : at + BLOCK]))
+        numbers = branch[:, floors] + 0.0  # zero has one sign
+        numbers[np.isnan(numbers)] = np.nan
+        found[at : at + BLOCK, :wide] = np.ascontiguousarray(numbers).view(np.uint8)
+        found[at : at + BLOCK, wide:] = branch[:, ~floors]
     return found
 
 
