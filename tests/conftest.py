@@ -50,12 +50,19 @@ TEXTUAL = {
 MOST, SQUARES = 5.0, 0.038
 
 
+def _nothing(number: int, frame: object) -> None:
+    """Takes a signal."""
+
+
 def pytest_configure(config: pytest.Config) -> None:
     """A test that is named is run in whatever tier it is."""
     if config.option.markexpr == "not slow" and all("::" in name for name in config.args):
         config.option.markexpr = ""
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # as nohup has it: tests press Ctrl-C
         signal.signal(signal.SIGINT, signal.default_int_handler)
+    hung_up = getattr(signal, "SIGHUP", None)
+    if hung_up and signal.getsignal(hung_up) is signal.SIG_IGN:  # so that programs do not inherit
+        signal.signal(hung_up, _nothing)
 
 
 @pytest.hookimpl(optionalhook=True)

@@ -20,7 +20,7 @@ from adamslite.cli.main import main
 from adamslite.errors import UsageError
 from adamslite.native import compiler
 from adamslite.results.results import Results
-from adamslite.syntax import forms, parser_tables
+from adamslite.syntax import forms
 
 UNIX = pytest.mark.skipif(not folder.HAS_OWNERS, reason="modes and owners of Unix")
 OWNER = os.geteuid() if folder.HAS_OWNERS else 0
@@ -79,7 +79,7 @@ define double @twice(double %x) {
 
 
 def tables() -> object:
-    """Tables of the parser; the tokens of ``A/1`` are parsed with them."""
+    """Tables of the parser, unpickled; the tokens of ``A/1`` are parsed with them."""
     forms._parser.cache_clear()
     kinds = ("NAME", "SLASH", "NUMBER")
     return forms._form(forms._parser("deck", "statement"), kinds)
@@ -124,7 +124,7 @@ def test_an_entry_under_the_name_of_another_is_damaged() -> None:
 
 
 def solve(cache: Path, tmp_path: Path) -> subprocess.CompletedProcess:
-    """A run in a process of its own, where code is linked and tables are read anew."""
+    """A run in a process of its own, where code is linked and tables are unpickled anew."""
     (tmp_path / "a.adm").write_text(DECK)
     words = ["-m", "adamslite", "solve", "a.adm", "--end", "1", "--steps", "2"]
     path = str(Path(forms.__file__).parents[2])
@@ -160,17 +160,15 @@ def test_each_kind_of_entry_survives_damage_in_a_real_run(cache, tmp_path) -> No
 
 
 @pytest.mark.parametrize("damage", ("empty", "zeroed", "cut to half", "a bit of the content"))
-def test_tables_of_the_parser_are_not_read_before_they_are_verified(
+def test_tables_of_the_parser_are_not_unpickled_before_they_are_verified(
     damage, cache, monkeypatch, caplog
 ) -> None:
     tables()
     (file,) = cache.glob("deck*.parser")
     file.write_bytes(DAMAGE[damage](file.read_bytes()))
     seen = []
-    loads = parser_tables.json.loads
-    monkeypatch.setattr(
-        parser_tables.json, "loads", lambda data: (seen.append(data), loads(data))[1]
-    )
+    loads = forms.pickle.loads
+    monkeypatch.setattr(forms.pickle, "loads", lambda data: (seen.append(data), loads(data))[1])
     tables()
     assert len(caplog.messages) == 1
     assert seen == [unsealed(file.name, file.read_bytes())]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import signal
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -168,21 +167,6 @@ def test_an_editor_that_leaves_early_is_no_fault() -> None:
             capture_output=True, timeout=WAIT, check=False,
         )  # fmt: skip
         assert (done.returncode, done.stderr) == (0, b"")
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
-@pytest.mark.parametrize("asked", [signal.SIGINT, signal.SIGTERM])
-def test_a_server_that_waits_ends_when_it_is_asked_to(asked: signal.Signals) -> None:
-    pipe = subprocess.PIPE
-    with subprocess.Popen(
-        [sys.executable, "-m", "adamslite", "lsp"], stdin=pipe, stdout=pipe, stderr=pipe
-    ) as server:
-        assert server.stdin and server.stdout and server.stderr
-        server.stdin.write(START)
-        server.stdin.flush()
-        assert server.stdout.readline().startswith(b"Content-Length")  # it listens
-        server.send_signal(asked)
-        assert server.wait(WAIT) == 0 and server.stderr.read() == b""
 
 
 # ---- files ---------------------------------------------------------------------------------------

@@ -19,7 +19,7 @@ from adamslite.equations.instances import Instances
 from adamslite.equations.lanes import Runs, runs
 from adamslite.equations.layout import Layout
 from adamslite.equations.numbering import Numbering
-from adamslite.errors import UsageError
+from adamslite.errors import NoRoom
 from adamslite.integrators import contract
 from adamslite.integrators.event_rows import MARGIN_ROWS, SensorRow
 from adamslite.integrators.linalg.plan import Plan
@@ -338,7 +338,7 @@ class System:
 
         Raises
         ------
-        UsageError
+        NoRoom
             When there is not so much room.
         """
         self.times = np.ascontiguousarray(times, dtype=float)
@@ -349,7 +349,7 @@ class System:
             self.record = np.zeros((block.room + 1) * row + 1)
         except MemoryError:
             size = 8e-9 * block.room * row
-            raise UsageError(
+            raise NoRoom(
                 f"The output of {len(times)} times would take {size:.3g} GB of memory, which are "
                 "not there: fewer STEPS, a longer DTOUT."
             ) from None

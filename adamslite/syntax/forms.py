@@ -11,30 +11,34 @@ number and serves every statement written the same way.
 
 from __future__ import annotations
 
+import pickle
 import re
+import sys
 from array import array
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from functools import cache, lru_cache
 from hashlib import sha256
-from itertools import accumulate
+from io import BytesIO
+from itertools import accumulate, count
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import lark
+from lark import Lark, Transformer
+from lark.exceptions import UnexpectedToken
+from lark.lexer import Lexer
+
 from adamslite import resources
 from adamslite.caching.entries import recall
-from adamslite.syntax import parser_tables
-from adamslite.syntax.parser_tables import Tables, Unexpected, made, parse
 
 Tree = tuple[Any, ...]
 """An expression: ``(rule, number of its token, branch, branch ...)``."""
 
 
-DECK = "deck", "statement"
-"""The grammar of statements and its start."""
 HEAD = ("NAME", "SLASH")
-LONG, PIECE = 512, 256
-"""Tokens of a statement above which it is parsed piece by piece, and of a piece."""
+LONG, PIECE = 24, 256
+"""Tokens of a statement above which it is parsed piece by piece, and of a piece, at least."""
 MOST_OPEN = 1000
 """Brackets inside each other; expressions of so many are rejected in any case."""
 BRACKETS = {"LPAR": 1, "LSQB": 1, "RPAR": -1, "RSQB": -1}
@@ -58,7 +62,7 @@ def runs(least: int) -> tuple[re.Pattern[str], re.Pattern[str]]:
     return re.compile(f"[a,]{{{least},}}+"), re.compile(f"a{{{least},}}+")
 
 
-RUN, VALUES = runs(99)
+RUN, VALUES = runs(8)
 
 
 class Fault(NamedTuple):
@@ -108,76 +112,110 @@ class Items(Sequence[Item]):
         return Item(key, start, end, bool(closed))
 
 
-class _Forms:
-    """Builds items and trees of tokens, which are given by their numbers."""
+class _Token:
+    """A token as far as the parser looks at it; it is made in a third of the time of Lark's own."""
 
-    def __init__(self, kinds: Sequence[str]) -> None:
-        self.kinds = kinds
+    __slots__ = ("start_pos", "type")
 
-    def item(self, tokens: list[int]) -> Item:
-        first, end = tokens[0], tokens[-1] + 1
-        if len(tokens) > 1 and self.kinds[tokens[1]] == "EQUAL":
-            return Item(first, first + 2, end, False)
-        return Item(-1, first, end, False)
+    line = column = end_line = end_column = end_pos = 0
 
-    def separator(self, tokens: list[int]) -> int:
+    def __init__(self, kind: str, number: int) -> None:
+        self.type, self.start_pos = kind, number
+
+
+class _Replay(Lexer):
+    """Hands token kinds to the parser; each token knows its number."""
+
+    def __init__(self, conf: object) -> None:
+        pass
+
+    # A lexer that parses no text receives what the parser was given, whatever Lark's types say.
+    def lex(self, kinds: Sequence[str]) -> Iterator[_Token]:  # type: ignore[override]
+        return map(_Token, kinds, count())
+
+
+class _Forms(Transformer[_Token, Any]):
+    """Builds items and trees while parsing."""
+
+    def item(self, tokens: list[_Token]) -> Item:
+        first, last = tokens[0].start_pos, tokens[-1].start_pos
+        if len(tokens) > 1 and tokens[1].type == "EQUAL":
+            return Item(first, first + 2, last + 1, False)
+        return Item(-1, first, last + 1, False)
+
+    def separator(self, tokens: list[_Token]) -> _Token:
         return tokens[0]
 
-    def statement(self, children: list[Item | int]) -> tuple[Item, ...]:
+    def statement(self, children: list[Item | _Token]) -> tuple[Item, ...]:
         items: list[Item] = []
         for child in children:
             if isinstance(child, Item):
                 items.append(child)
-            elif self.kinds[child] == "BACKSLASH":
+            elif child.type == "BACKSLASH":
                 items[-1] = items[-1]._replace(closed=True)
         return tuple(items)
 
-    def operation(self, children: tuple[Tree, int, Tree]) -> Tree:
+    def operation(self, children: tuple[Tree, _Token, Tree]) -> Tree:
         left, token, right = children
-        return ("operation", token, left, right)
+        return ("operation", token.start_pos, left, right)
 
-    def negation(self, children: tuple[int, Tree]) -> Tree:
-        return ("negation", children[0], children[1])
+    def negation(self, children: tuple[_Token, Tree]) -> Tree:
+        return ("negation", children[0].start_pos, children[1])
 
-    def same(self, children: tuple[int, Tree, int]) -> Tree:
+    def same(self, children: tuple[_Token, Tree, _Token]) -> Tree:
         return children[1]
 
-    def number(self, children: list[int]) -> Tree:
-        return ("number", children[0])
+    def number(self, children: list[_Token]) -> Tree:
+        return ("number", children[0].start_pos)
 
-    def name(self, children: list[int]) -> Tree:
-        return ("name", children[0])
+    def name(self, children: list[_Token]) -> Tree:
+        return ("name", children[0].start_pos)
 
     def arguments(self, children: list[Any]) -> tuple[str, list[Tree]]:
-        separators = "".join(":" if self.kinds[c] == "COLON" else "," for c in children[1::2])
+        separators = "".join(":" if c.type == "COLON" else "," for c in children[1::2])
         return separators, children[::2]
 
     def call(self, children: list[Any]) -> Tree:
         separators, branches = children[2] if len(children) == 4 else ("", [])
-        return ("call", children[0], separators, *branches)
+        return ("call", children[0].start_pos, separators, *branches)
+
+
+FORM: dict[str, Any] = {"parser": "lalr", "lexer": _Replay, "keep_all_tokens": True}
 
 
 @cache
-def _parser(grammar: str, start: str) -> Tables:
-    """The tables of ``grammar/<grammar>.lark``, made when first needed and kept."""
+def _parser(grammar: str, start: str) -> Lark:
+    """The parser of ``grammar/<grammar>.lark``, built when first needed; its tables are kept."""
     folder = resources.find("grammar")
-    name = f"{grammar}{_grammars(folder)}.parser"
-    return Tables.kept(recall(name, lambda: made(folder / f"{grammar}.lark", start).content))
+
+    def tables() -> bytes:
+        found = BytesIO()
+        Lark.open(str(folder / f"{grammar}.lark"), start=start, **FORM).save(found)
+        return found.getvalue()
+
+    kept = pickle.loads(recall(f"{grammar}{_grammars(folder)}.parser", tables))
+    return Lark._load_from_dict(kept["data"], kept["memo"], transformer=_Forms())
 
 
 @cache
 def _grammars(folder: Path) -> str:
-    """Digest of what parser tables are made from: code and grammars, which import each other."""
-    files = [*sorted(folder.glob("*.lark")), Path(parser_tables.__file__)]
-    return sha256(b"\0".join(each.read_bytes() for each in files)).hexdigest()[:32]
+    """Digest of what parser tables are made from: the grammars, which import each other, and Lark.
+
+    The tables name classes of this module, so it belongs to them.
+    """
+    files = sorted(folder.glob("*.lark"))
+    texts = [each.read_bytes() for each in (*files, Path(__file__))]
+    versions = f"{lark.__version__} {sys.implementation.cache_tag}".encode()
+    return sha256(b"\0".join((versions, *texts))).hexdigest()[:32]
 
 
-def _form(parser: Tables, kinds: tuple[str, ...]) -> Any:
+def _form(parser: Lark, kinds: tuple[str, ...]) -> Any:
     """What :class:`_Forms` makes of the whole, or where the kinds do not fit."""
     try:
-        return parse(parser, kinds, _Forms(kinds))
-    except Unexpected as unexpected:
-        return Fault(unexpected.args[0])
+        return parser.parse(kinds)
+    except UnexpectedToken as unexpected:
+        at = unexpected.token.start_pos
+        return Fault(len(kinds) if unexpected.token.type == "$END" else at)
 
 
 def statement_form(kinds: tuple[str, ...]) -> Sequence[Item] | Fault:
@@ -187,8 +225,14 @@ def statement_form(kinds: tuple[str, ...]) -> Sequence[Item] | Fault:
 
 @lru_cache(maxsize=8192)
 def _short_form(kinds: tuple[str, ...]) -> tuple[Item, ...] | Fault:
+    """The items of a statement that is parsed as a whole, kept for others like it."""
+    return _parsed(kinds)
+
+
+def _parsed(kinds: tuple[str, ...]) -> tuple[Item, ...] | Fault:
     """The items of a statement that is parsed as a whole."""
-    return _form(_parser(*DECK), kinds)
+    found: tuple[Item, ...] | Fault = _form(_parser("deck", "statement"), kinds)
+    return found
 
 
 def _long_form(kinds: tuple[str, ...]) -> Items | Fault:
@@ -214,7 +258,7 @@ def _long_form(kinds: tuple[str, ...]) -> Items | Fault:
     start = len(HEAD)
     for end, following in _ends(shorter):
         piece = HEAD + shorter[start:end]
-        form = _short_form(piece) if len(piece) <= LONG else _form(_parser(*DECK), piece)
+        form = _short_form(piece) if len(piece) <= 2 * PIECE else _parsed(piece)
         shift = start - len(HEAD)
         if isinstance(form, Fault):
             at = form.at + shift
@@ -298,5 +342,5 @@ def expression_form(kinds: tuple[str, ...]) -> Tree | Fault:
 @cache
 def terminals() -> dict[str, str]:
     """Regular expressions of the terminals of the deck grammar, in the order of the file."""
-    found = dict(_parser(*DECK).terminals)
+    found = {t.name: t.pattern.to_regexp() for t in _parser("deck", "statement").terminals}
     return {"BLANK": found.pop("BLANK"), **found}
