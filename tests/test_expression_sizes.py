@@ -51,6 +51,22 @@ def test_what_is_written_out_once_is_counted_once(limited: None) -> None:
     assert compiled(doubled()).groups and not errors(doubled())
 
 
+@pytest.mark.parametrize("limited", [40], indirect=True)
+def test_of_functions_of_time_the_values_are_taken(
+    limited: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Nothing is written out there, so that nothing has to be counted."""
+    monkeypatch.setattr("adamslite.kernels.collecting.refused", None)
+    assert not errors(doubled().replace("DX(2,1)", "TIME"))
+
+
+@pytest.mark.parametrize("limited", [15], indirect=True)
+def test_a_function_of_time_may_be_too_large(limited: None) -> None:
+    text = DECK.format(chain="VARIABLE/2, FUNCTION=" + "+".join(["SIN(TIME)*VARVAL(3)"] * 9))
+    (only,) = errors(text.replace("END", "VARIABLE/3, FUNCTION=TIME\nEND"))
+    assert only.startswith("VARIABLE/2 has more than 15 operations")
+
+
 @pytest.mark.parametrize("limited", [15], indirect=True)
 def test_one_expression_may_be_too_large_by_itself(limited: None) -> None:
     text = DECK.format(chain="VARIABLE/2, FUNCTION=" + "+".join(["DX(2,1)"] * 10))

@@ -197,8 +197,9 @@ def _form(deck: Deck, motion: Motion) -> Iterator[Diagnostic]:
 
 @needs("VARIABLE")
 def functions_of_time(deck: Deck) -> Iterator[Diagnostic]:
-    varying = variables_not_of_time(deck)
-    for motion in deck.of(Motion):
+    motions = deck.of(Motion)
+    varying = variables_not_of_time(deck) if motions else ()
+    for motion in motions:
         culprit = not_of_time(deck, motion.function, varying)
         if culprit:
             yield diagnose_inside(motion, culprit, "motion-not-of-time", "function", word=culprit)

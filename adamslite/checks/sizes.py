@@ -25,19 +25,26 @@ def expressions_too_large(deck: Deck) -> Iterator[Diagnostic]:
     """
     if COPIES * len(deck.source.text) <= LARGEST:
         return
-    sizes = _sizes(deck)
-    if COPIES * max(sizes, default=0) > LARGEST or COPIES * sum(sizes) > MOST_IN_ALL:
-        from adamslite.kernels.collecting import refused
-        from adamslite.model.model import Model
+    if not _may_be_too_large(_sizes(deck)):
+        return
+    from adamslite.kernels.collecting import refused
+    from adamslite.model.model import Model
 
-        found = refused(Model(deck))
+    model = Model(deck)
+    signals = {("VARIABLE", each.key) for each in model.signals}
+    if not signals or _may_be_too_large(_sizes(deck, signals)):
+        found = refused(model)
         if found is not None and found.code in ("expression-too-large", "deck-too-large"):
             yield found
 
 
-def _sizes(deck: Deck) -> Collection[int]:
+def _may_be_too_large(sizes: Collection[int]) -> bool:
+    return COPIES * max(sizes, default=0) > LARGEST or COPIES * sum(sizes) > MOST_IN_ALL
+
+
+def _sizes(deck: Deck, signals: Collection[Own] = ()) -> Collection[int]:
     """Operations of each statement with all that is written out in it, or more; each of these
-    counts as often as it is taken.
+    counts as often as it is taken.  Of ``signals`` the value alone is taken.
     """
     own: dict[Own, int] = {}
     taken: dict[Own, list[Own]] = {}
@@ -49,7 +56,7 @@ def _sizes(deck: Deck) -> Collection[int]:
             taken[key] = _measured(found)
     sizes: dict[Own, int] = {}
     for key in behind_others(own, lambda each: [k for k in taken[each] if k in own]):
-        others = sum(sizes.get(each, 0) for each in taken[key])
+        others = sum(1 if each in signals else sizes.get(each, 0) for each in taken[key])
         sizes[key] = min(own[key] + others, LARGEST + 1)
     return sizes.values()
 
