@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
 from scenes import GROUND, PENDULUM, SPRING, run
 
+from adamslite.analyses import simulation
 from adamslite.analyses.findings.confirmation import confirmation
 from adamslite.cli.main import main
 from adamslite.resources import find
 from adamslite.results.confirmation import Channel, Confirmation
+from adamslite.results.outcomes import Outcome
 from adamslite.scene import load_scene, run_scene
 from benchmarks.bounds import judge, known
 from benchmarks.closed_forms import FAMILIES
@@ -72,6 +76,9 @@ def test_a_run_that_differs_from_its_witnesses_says_by_how_much():
     assert "NOT CONFIRMED" in found.verdict and "PART/2.y may be off by" in found.verdict
 
 
+confirmed = simulation._confirmed
+
+
 class Settings:
     """What a run asked for."""
 
@@ -90,6 +97,28 @@ def test_witnesses_that_end_otherwise_confirm_nothing():
     found = confirmation(results, Settings(), again)
     assert not found.confirmed and "ends with DONE at t = 0.5" in found.verdict
     assert found["PART/2.y"].bound == np.inf
+
+
+@pytest.mark.parametrize("early", [False, True])
+def test_an_interrupted_witness_is_the_last_one(early, tmp_path, monkeypatch, capsys):
+    """The results are written, and the command ends as one that was interrupted."""
+    asked = []
+
+    def interrupted(call, **options):
+        asked.append(options)
+        if early:
+            raise KeyboardInterrupt
+        return replace(call(**options), outcome=Outcome.INTERRUPTED)
+
+    monkeypatch.setattr(
+        simulation, "_confirmed",
+        lambda results, session, again: confirmed(results, session, partial(interrupted, again)),
+    )  # fmt: skip
+    monkeypatch.chdir(tmp_path)
+    Path("a.adm").write_text(FALL)
+    assert main(["solve", "a.adm", "--end", "1", "--steps", "10", "--confirm"]) == 4
+    assert len(asked) == 1 and Path("a.csv").read_text().count("\n1.0,1.0,-4.9") == 1
+    assert "interrupted" in (told := capsys.readouterr().err.casefold()), told
 
 
 @pytest.mark.parametrize(("shown", "code"), [("9.81", 0), ("chaos", 1)])

@@ -49,11 +49,14 @@ class Confirmation:
         Method and ERROR of each run that was compared.
     objections : tuple of str
         What keeps the run from being confirmed besides the bounds.
+    interrupted : bool
+        Whether the user has ended a witness, and with it the search for others.
     """
 
     channels: tuple[Channel, ...]
     witnesses: tuple[str, ...]
     objections: tuple[str, ...]
+    interrupted: bool = False
 
     def __getitem__(self, name: str) -> Channel:
         """The channel called ``name``, upper or lower case."""

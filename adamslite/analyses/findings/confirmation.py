@@ -25,6 +25,7 @@ import numpy as np
 from adamslite.errors import UsageError
 from adamslite.language.method import FIXED, declared, method_of
 from adamslite.results.confirmation import Channel, Confirmation
+from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 
 if TYPE_CHECKING:
@@ -46,6 +47,8 @@ TRIPLES = ("x y z", "psi theta phi", "vx vy vz", "wx wy wz", "ax ay az", "alx al
            "fx fy fz", "tx ty tz", "F2 F3 F4", "F6 F7 F8")  # fmt: skip
 KIND = {word: triple for triple in TRIPLES for word in triple.split()}
 ANGLES = ("psi", "theta", "phi")
+#: A witness that was interrupted before it had anything.
+EARLY = "interrupted"
 
 
 def confirmation(
@@ -66,19 +69,31 @@ def confirmation(
         related = (m.name for m in declared() if m.family == family and m.steps != FIXED)
         method = next(related, method)
     own = _run(again, integrator=method, formulation=settings.formulation, **options)
-    others = (w for w in WITNESSES if method_of(w).family != family)
-    other = next(_tried((_run(again, integrator=w, **options) for w in others), results), None)
+    asked = [own]
+
+    def others() -> Iterator[Results | str]:
+        for each in WITNESSES:
+            if method_of(each).family != family and not _is_interrupted(asked[-1]):
+                asked.append(_run(again, integrator=each, **options))
+                yield asked[-1]
+
+    other = next(_tried(others(), results), None)
     witnesses = [w for w in (own, other) if isinstance(w, Results)]
     objections = [
         _fault("the same method", own, results),
-        _fault("another method", other, results),
+        _fault("another method", other, results) if other or not _is_interrupted(own) else "",
         _unbalanced(witnesses),
     ]
     return Confirmation(
         channels=tuple(_channels(results, witnesses)),
         witnesses=tuple(w.meta["integrator"] for w in witnesses),
         objections=tuple(filter(None, objections)),
+        interrupted=_is_interrupted(asked[-1]),
     )
+
+
+def _is_interrupted(found: Results | str) -> bool:
+    return found == EARLY or isinstance(found, Results) and found.outcome is Outcome.INTERRUPTED
 
 
 def _run(again: Callable[..., Results], **options: Any) -> Results | str:
@@ -87,6 +102,8 @@ def _run(again: Callable[..., Results], **options: Any) -> Results | str:
         return again(**options)
     except UsageError as fault:
         return str(fault)
+    except KeyboardInterrupt:
+        return EARLY
 
 
 def _tried(runs: Iterable[Results | str], results: Results) -> Iterator[Results | str]:
@@ -101,6 +118,8 @@ def _tried(runs: Iterable[Results | str], results: Results) -> Iterator[Results 
 
 def _fault(who: str, found: Results | str | None, results: Results) -> str:
     """Why a witness is none; empty when it is one."""
+    if found == EARLY:
+        return f"{who} was interrupted"
     if not isinstance(found, Results):
         return f"{who} cannot run this scene: {found}"
     if found.outcome is not results.outcome or len(found.time) != len(results.time):

@@ -156,9 +156,9 @@ def _solved(
     _summarize(scene, args, results, output, written)
     if journal:
         _close(journal, results)
-    if not results.outcome.is_requested:
-        return STOPPED_EARLY
     found = results.confirmation
+    if not results.outcome.is_requested or (found and found.interrupted):
+        return STOPPED_EARLY
     return DONE if found is None or found.confirmed else OUTSIDE_TOLERANCE
 
 
