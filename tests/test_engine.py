@@ -279,9 +279,9 @@ def called(monkeypatch: pytest.MonkeyPatch):
             module = frame.f_globals["__name__"].removeprefix("adamslite.")
             names.add(f"{module}.{frame.f_code.co_name}")
 
-    def run(worker: Worker) -> None:
+    def run(worker: Worker, *held: object) -> None:
         sys.setprofile(watch)
-        work(worker)
+        work(worker, *held)
 
     work = Worker._run
     monkeypatch.setattr(Worker, "_run", run)
