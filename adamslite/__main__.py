@@ -27,8 +27,6 @@ ENDING = ("SIGTERM", "SIGHUP")
 INTERRUPTED, STOPPED_EARLY = b"adamslite: interrupted\n", 4
 #: Files of the frames in which modules are imported.
 IMPORTING = ("<frozen importlib._bootstrap>", "<frozen importlib._bootstrap_external>")
-#: File and name of what `exec` carries out.
-TEXT = ("<string>", "<module>")
 #: After which an interruption tries again, and for how long it waits for an import [s].
 LATER, PATIENCE = 0.02, 0.4
 
@@ -60,17 +58,14 @@ for _each in HEARD:
 
 
 def _interrupt(number: int, frame: "FrameType | None") -> None:
-    """Raise KeyboardInterrupt; in the middle of an import or of a text a little later.
+    """Raise KeyboardInterrupt; in the middle of an import a little later.
 
     Code of C that is being imported makes another fault of it, and locks of modules stay locked.
-    Where it goes through a text that is carried out, as classes are made from, Python ends the
-    process by SIGINT in the end, whoever has caught it by then.
     """
     global _since
     _since = _since or monotonic()
-    waited = monotonic() - _since
-    while frame is not None and waited < 2.0 * PATIENCE:
-        if waited < PATIENCE and frame.f_code.co_filename in IMPORTING or _is_text(frame):
+    while frame is not None and monotonic() < _since + PATIENCE:
+        if frame.f_code.co_filename in IMPORTING:
             _come_again(number)
             return
         frame = frame.f_back
@@ -80,13 +75,7 @@ def _interrupt(number: int, frame: "FrameType | None") -> None:
     raise KeyboardInterrupt
 
 
-def _is_text(frame: "FrameType") -> bool:
-    """Whether a text is carried out there; the program itself may be one (`python -c`)."""
-    code = frame.f_code
-    return (code.co_filename, code.co_name) == TEXT and frame.f_back is not None
-
-
-#: When an interruption that waits came; 0 when none does.
+#: When an interruption that waits for an import came; 0 when none does.
 _since = 0.0
 
 

@@ -145,6 +145,7 @@ def test_what_is_no_entry_is_neither_waited_for_nor_read(trap, cache, caplog) ->
     trap(cache / NAME)
     assert recall(NAME, lambda: CONTENT) == CONTENT
     assert len(caplog.messages) == 1 and "is rebuilt" in caplog.text
+    assert ("it is no file" in caplog.text) == (trap in (pipe, endless))
     assert trap == Path.mkdir or (cache / NAME).read_bytes() == sealed(NAME, CONTENT)
 
 
