@@ -53,13 +53,10 @@ class _Guard:
 
 
 def _use_algebra() -> None:
-    """Let libraries that are loaded take what they need: they end the process or wait without."""
+    """Let that of numpy, which is loaded, take what it needs: it ends the process otherwise."""
     import numpy as np
 
     np.linalg.solve(np.eye(2), np.ones(2))
-    loaded = sys.modules.get(ALGEBRA)
-    if loaded is not None and hasattr(loaded, "solve"):  # it has its own
-        loaded.solve(np.eye(2), np.ones(2))
 
 
 def lift_memory_limit() -> None:
