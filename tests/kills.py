@@ -5,11 +5,12 @@
 
 Instants are spread evenly over the time that a run takes, from the start of the process to its end,
 so that some are before there is a file to go on with, which do not count, and some while results
-are written; every third kill is in the middle of a write to the file of the run.  Resumed runs are
-killed again, of which some are killed again.  All files that a run writes are compared.  A line for
-each case says how many kills there were, and what was left; the exit code is 1 when bytes differed
-anywhere.  Sweeps and fits are killed and given again: at no instant is their file anything but
-whole, and no process is left.
+are written, which those of long runs are from their start; every third kill is in the middle of a
+write to the file of the run.  Resumed runs are killed again, of which some are killed again.  All
+files that a run writes are compared with those that are written at its end.  A line for each case
+says how many kills there were, and what was left; the exit code is 1 when bytes differed anywhere.
+Sweeps and fits are killed and given again: at no instant is their file anything but whole, and no
+process is left.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from unfinished_runs import PATIENCE, command
+from unfinished_runs import AT_ONCE, PATIENCE, command
 from unfinished_scenes import CASES, SUFFIXES, pendulum, prepared, written
 
 from adamslite import load_sweep
@@ -51,7 +52,7 @@ class Killing:
         self.read = set(self._contents())
         for _ in range(2):  # the second finds everything compiled
             began = time.monotonic()
-            self._finished(self._begun())
+            self._finished(self._at_once())
             self.takes = time.monotonic() - began
         self.whole = self._contents()
 
@@ -63,6 +64,10 @@ class Killing:
 
     def _begun(self, at: int = 0) -> list[str]:
         return command(str(self.deck), "-o", str(self.output), *self.words, at=at)
+
+    def _at_once(self) -> list[str]:
+        words = ["solve", "--quiet", str(self.deck), "-o", str(self.output), *self.words]
+        return [sys.executable, "-c", AT_ONCE, *words]
 
     def _gone_on(self, at: int = 0) -> list[str]:
         return command("--resume", str(self.part), at=at)

@@ -73,11 +73,38 @@ def test_the_next_run_of_a_name_takes_drafts_away(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("age", [0.0, YOUNG / 2, -YOUNG / 2])
 def test_a_young_draft_stays(tmp_path: Path, age: float) -> None:
+    """It is empty as long as nobody has locked it."""
     draft = draft_of(tmp_path / "x.csv")
-    draft.write_text("half")
+    draft.touch()
     aged(draft, age)
     remove_drafts(tmp_path / "x.csv")
     assert draft.exists()
+
+
+@POSIX
+def test_a_young_draft_that_nobody_writes_goes(tmp_path: Path) -> None:
+    """What a killed program has left may have many gigabytes: the next run needs their room."""
+    draft = draft_of(tmp_path / "x.csv")
+    draft.write_text("half")
+    remove_drafts(tmp_path / "x.csv")
+    assert not draft.exists()
+
+
+@POSIX
+def test_a_draft_gets_its_name_while_it_is_locked(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Another run of that name may look for drafts in between."""
+    replace = os.replace
+
+    def replaced(draft: Path, target: Path) -> None:
+        remove_drafts(target)
+        replace(draft, target)
+
+    monkeypatch.setattr(os, "replace", replaced)
+    with whole_file(tmp_path / "x.csv") as stream:
+        stream.write("whole")
+    assert (tmp_path / "x.csv").read_text() == "whole"
 
 
 def test_a_draft_of_the_future_goes(tmp_path: Path) -> None:

@@ -14,12 +14,27 @@ from unfinished_scenes import written
 
 from adamslite.outputs.part_file import FIRST, RECORD, RECORDS, PartFile
 
-#: The command line with states from the start on, and small blocks.
-OFTEN = """\
+#: A file of results is a long one, with what the run has found behind its rows, from here on.
+LONG = """\
 import sys
+from adamslite.outputs import row_by_row
+row_by_row.LONG = 3000
+"""
+#: The command line with states from the start on, and small blocks, which writes long files while
+#: the run lasts.
+OFTEN = f"""\
+{LONG}
+row_by_row.SLICE = 500
 from adamslite.analyses.dynamics import dynamic, history
 history.SETTLED, history.EVERY, history.LONG, dynamic.ROOM = 0.0, 0.02, 0.3, 3000
 dynamic.WATCH_INTERVAL = 0.02
+from adamslite.__main__ import main
+sys.exit(main())
+"""
+#: The command line that writes all files at the end.
+AT_ONCE = f"""\
+{LONG}
+row_by_row.GrowingFile.follow = lambda self, rows: None
 from adamslite.__main__ import main
 sys.exit(main())
 """
@@ -47,10 +62,10 @@ def command(*words: str, at: int = 0) -> list[str]:
     return [sys.executable, "-c", program, "solve", "--quiet", *words]
 
 
-def solved(deck: Path, *words: str) -> bytes:
-    """The table of an undisturbed run, as everybody has it."""
-    output = deck.with_name("undisturbed.csv")
-    whole = [sys.executable, "-m", "adamslite", "solve", "--quiet", str(deck), "-o", str(output)]
+def solved(deck: Path, *words: str, suffix: str = ".csv") -> bytes:
+    """The table of an undisturbed run, written at its end."""
+    output = deck.with_name(f"undisturbed{suffix}")
+    whole = [sys.executable, "-c", AT_ONCE, "solve", "--quiet", str(deck), "-o", str(output)]
     done = subprocess.run([*whole, *words], capture_output=True, text=True, cwd=deck.parent)
     assert done.returncode == 0, done.stderr
     return output.read_bytes()

@@ -31,6 +31,7 @@ from adamslite.language.interfaces import key_of
 from adamslite.language.method import without_effect
 from adamslite.model.reduction import MERGED, kept_apart, left_off
 from adamslite.outputs.saved_files import SavedFiles
+from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 from adamslite.results.source import source_of
 
@@ -58,6 +59,12 @@ FASTER = (
 )
 # Columns named that hold entries without a value.
 MOST_TOLD = 5
+#: Numbers of an interrupted run that are looked through: who waits for it to end waits for that.
+MOST_LOOKED_AT = 2**24
+LATER = (
+    "columns without numbers, forces out of their laws, joints that stand still and the accuracy, "
+    "in {rows} rows: what goes on with the run does, when it is done"
+)
 COUNTED = (
     "steps", "rejected", "newton", "jacobians", "factorizations", "events", "restarts",
 )  # fmt: skip
@@ -116,6 +123,7 @@ def simulate(
         subject = prepared_for(scene, commands)
         session = Session(subject, progress, flags, without, audit, files, budget, journal)
         kept = _columns_kept(session, wanted)
+        _begin_table(session, journal, source)
 
         def need_its_room() -> None:
             need_room(session.system, plan, kept, output, journal is not None)
@@ -133,6 +141,21 @@ def simulate(
 
 
 # Most runs need none of what the following functions import.
+
+
+def _begin_table(session: Session, journal: Journal | None, source: RunSource) -> None:
+    """Have the file of the results written while the session lasts, where one is."""
+    table = journal and journal.table
+    if not journal or not table:
+        return
+    journal.table = None  # witnesses of a confirmation have other results
+
+    def begun(names: tuple[str, ...]) -> Results:
+        none = np.zeros((0, len(names)))
+        meta = _known(session)
+        return Results(time=np.zeros(0), names=names, values=none, meta=meta, source=source)
+
+    session.history.table, table.begun = table, begun
 
 
 def _columns_kept(session: Session, wanted: tuple[str, ...]) -> int:
@@ -288,7 +311,7 @@ def _results(session: Session, cpu: tuple[float, float], notes: bool, source: Ru
         worst = _worst(session.balances)
         summary |= {"energy_gap": worst.gap, "energy_gap_explained": worst.explained}
     done = session.outcome.is_requested
-    meta = {**_meta(session), **_without_value(session.history)} if notes else {}
+    meta = _meta(session) if notes else {}
     facts: dict[str, Any] = {
         "meta": meta, "outcome": session.outcome, "message": "" if done else explained(session),
         "summary": summary, "linearizations": tuple(session.linearizations),
@@ -302,10 +325,10 @@ def _results(session: Session, cpu: tuple[float, float], notes: bool, source: Ru
     return Results(time=table.times, names=table.names, values=table.values, **facts)
 
 
-def _meta(session: Session) -> Mapping[str, str]:
+def _known(session: Session) -> Mapping[str, str]:
+    """What is known before the first row."""
     deck, settings = session.deck, session.chosen.settings
     units = deck.single("UNITS").names
-    hurried = ", ".join(dict.fromkeys(map(placed, session.system.hurried)))
     return {
         "deck": deck.title,
         "deck hash": deck.hash,
@@ -313,15 +336,33 @@ def _meta(session: Session) -> Mapping[str, str]:
         "integrator": f"{settings.method} {settings.form} ERROR={settings.error:g}",
         **({"user": f"not as the deck has it: {deck.user.summary()}"} if deck.user.used else {}),
         **({"integrator chosen": session.chosen.reason} if session.chosen.reason else {}),
+    }
+
+
+def _meta(session: Session) -> Mapping[str, str]:
+    hurried = ", ".join(dict.fromkeys(map(placed, session.system.hurried)))
+    return {
+        **_known(session),
         **_notes(session),
-        **_beyond(session),
         **session.apart.meta,
-        **_standing(session),
         **session.sensors.meta,
         **({"info": "; ".join(session.printed)} if session.printed else {}),
         **_past(session),
         **({"time": f"{hurried}: {FASTER}"} if hurried else {}),
+        **_seen_in_rows(session),
     }
+
+
+def _seen_in_rows(session: Session) -> dict[str, str]:
+    """What the rows show.  Of a run that is interrupted not very many are looked through."""
+    history = session.history
+    numbers = history.count * len(history.names) if history.stretches else 0
+    if session.outcome is Outcome.INTERRUPTED and numbers > MOST_LOOKED_AT:
+        return {"not looked for": LATER.format(rows=history.count)}
+    found = {**_beyond(session), **_standing(session), **_without_value(history)}
+    if session.counts.steps and (note := _accuracy_note(session)):
+        found["accuracy"] = note
+    return found
 
 
 def _past(session: Session) -> dict[str, str]:
@@ -377,9 +418,6 @@ def _notes(session: Session) -> dict[str, str]:
         found["order"] = CAPPED
     if session.balances:
         found["energy"] = str(_worst(session.balances))
-    steps = session.counts.steps
-    if steps and (note := _accuracy_note(session)):
-        found["accuracy"] = note
     notes = {each.model.note: each.time for each in reversed(session.linearizations)}
     if varying := [f"t = {t:g}: {note}" for note, t in reversed(notes.items()) if note]:
         found["linear"] = "; ".join(varying)

@@ -7,14 +7,17 @@
     0.0,0.01,0.0
 
 Numbers are written with the fewest digits (17 at most) that read back to the same bits,
-so the same run gives the same bytes and nothing is lost. The header of a table from elsewhere may
-name units behind names, ``time [ms],REQUEST/1.F2 [kN]``. With orjson (extra ``fast``) a long table
-is written about three times faster, in the same bytes.
+so the same run gives the same bytes and nothing is lost. A table of more than 262 144 numbers is
+written while its run lasts: comments that say what the run has found, and how it ended, then stand
+behind the last row. The header of a table from elsewhere may name units behind names,
+``time [ms],REQUEST/1.F2 [kN]``. With orjson (extra ``fast``) a long table is written about twice
+as fast, in the same bytes.
 """
 
 import csv
 import io
 import re
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any
@@ -24,13 +27,15 @@ import numpy as np
 import adamslite
 from adamslite.errors import FormatError
 from adamslite.language.text import contents, text_of
+from adamslite.outputs import row_by_row
 from adamslite.outputs.number_text import lines
-from adamslite.outputs.whole_files import whole_file
 from adamslite.results.formats import register_format
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 
 SEPARATED = "; commas separate columns, and decimals have points"
+#: Comments that are known before the first row.
+EARLY = ("deck", "deck hash", "units", "integrator", "integrator chosen", "user")
 #: A name with its unit behind it.
 UNIT = re.compile(r"(.*\S)\s+\[([^\[\]]*)\]")
 
@@ -45,21 +50,42 @@ class Table:
 
 def write(results: Results, path: str | Path) -> None:
     """Write `results` to the file `path`, whole or not at all."""
-    with whole_file(path) as stream:
-        write_to(results, stream)
+    row_by_row.write(LAYOUT, results, path)
 
 
 def write_to(results: Results, stream: IO[str]) -> None:
     """Write `results` to an open text stream."""
-    stream.write(f"# adamslite {adamslite.__version__}\n")
-    for key, value in results.meta.items():
-        stream.write(f"# {key}: {_one_line(value)}\n")
-    if results.outcome is not Outcome.DONE:
-        stream.write(f"# outcome: {results.outcome.name} {_one_line(results.message)}\n")
+    long = row_by_row.is_long(results)
+    stream.writelines(piece.decode() for piece in row_by_row.pieces(LAYOUT, results, long))
+
+
+def _head(results: Results, long: bool) -> bytes:
+    """The comments that stand before the rows, and the names of the columns."""
+    stream = io.StringIO()
+    stream.write(f"# adamslite {adamslite.__version__}\n{_comments(results, long, True)}")
     header = csv.writer(stream, lineterminator="\n")
     header.writerow(["time", *results.names])
-    for time, values in results.blocks():
-        stream.writelines(lines(time[:, None], values))
+    return stream.getvalue().encode()
+
+
+def _tail(results: Results, long: bool) -> bytes:
+    return _comments(results, long, False).encode()
+
+
+def _comments(results: Results, long: bool, early: bool) -> str:
+    """Those before the rows or those behind them, which are what the run of a long table found."""
+    found = {key: _one_line(value) for key, value in results.meta.items()}
+    if results.outcome is not Outcome.DONE:
+        found["outcome"] = f"{results.outcome.name} {_one_line(results.message)}"
+    here = (key for key in found if (key in EARLY or not long) == early)
+    return "".join(f"# {key}: {found[key]}\n" for key in here)
+
+
+def _rows(results: Results) -> Callable[[np.ndarray, np.ndarray], Iterator[bytes]]:
+    return lambda time, values: (each.encode() for each in lines(time[:, None], values))
+
+
+LAYOUT = row_by_row.Layout(_head, _rows, _tail)
 
 
 def read(path: str | Path) -> Results:
@@ -80,6 +106,7 @@ def read_table(path: str | Path) -> Table:
     except UnicodeDecodeError as fault:
         raise FormatError(f"{path} is not a table in UTF-8: {fault.reason}") from None
     comments, start = _leading_comments(lines)
+    comments += _comments_behind(lines, start)
     meta = dict(_key_and_value(text) for _, text in comments if ": " in text)
     outcome, message = _ending(meta)
     run: dict[str, Any] = {"meta": meta, "outcome": outcome, "message": message}
@@ -123,6 +150,16 @@ def _leading_comments(lines: list[str]) -> tuple[tuple[tuple[int, str], ...], in
         elif line.strip():
             return tuple(comments), index
     return tuple(comments), len(lines)
+
+
+def _comments_behind(lines: list[str], start: int) -> tuple[tuple[int, str], ...]:
+    """Comments behind the last row, which are taken out of the lines."""
+    end = len(lines)
+    while end > start and (not lines[end - 1].strip() or lines[end - 1].startswith("#")):
+        end -= 1
+    comments, _ = _leading_comments(lines[end:])
+    del lines[end:]
+    return tuple((end + number, text) for number, text in comments)
 
 
 def _key_and_value(text: str) -> tuple[str, str]:
@@ -188,4 +225,5 @@ register_format(
     "a table: comment lines, a row of names, then a row of numbers with all digits per time",
     write,
     read,
+    layout=LAYOUT,
 )

@@ -15,7 +15,9 @@ from typing import IO, Any
 SUFFIX = ".part"
 #: What follows ``.NAME.``; the file of an unfinished run has drafts, too.
 DRAFT = re.compile(r"(?:part\.)?[0-9a-f]{8}\.part")
-#: A draft may be unlocked for a moment when it is made, and before it gets its name [s].
+WINDOWS = os.name == "nt"
+#: A draft may be unlocked for a moment when it is made, and without locks before it gets its name
+#: [s].
 YOUNG = 60.0
 
 
@@ -58,11 +60,12 @@ def remove_drafts(path: str | Path) -> None:
 
 def _remove(draft: str) -> None:
     found = os.lstat(draft)
-    if abs(time.time() - found.st_mtime) < YOUNG or not stat.S_ISREG(found.st_mode):
+    young = (WINDOWS or not found.st_size) and abs(time.time() - found.st_mtime) < YOUNG
+    if young or not stat.S_ISREG(found.st_mode):
         return
     with open(draft, "r+b") as stream:
         held = lock(stream)
         if held:
             os.unlink(draft)
-    if held is None and os.name == "nt":
+    if held is None and WINDOWS:
         os.unlink(draft)

@@ -13,12 +13,14 @@ from __future__ import annotations
 
 import struct
 import zlib
+from collections.abc import Iterator
 from io import BytesIO
 from pathlib import Path
+from typing import IO, Any
 
 import numpy as np
 
-from adamslite.errors import FormatError
+from adamslite.errors import FormatError, UsageError
 from adamslite.language.text import contents
 from adamslite.outputs.mat_file import Matrix, variables
 from adamslite.outputs.whole_files import whole_file
@@ -32,27 +34,98 @@ from adamslite.results.untrusted import need_plausible
 HEAD = b"MATLAB 5.0 MAT-file, by adamslite".ljust(116)
 NEEDED = ("time", "values", "names")
 NEW = b"MATLAB 7.3 MAT-file"
+#: Bytes of a variable that MATLAB takes, and numbers that are written at once.
+LARGEST, BLOCK = 2**31 - 8, 2**20
+TOO_LARGE = (
+    "The values take {size:.3g} GB, and a MATLAB file (version 5) holds {most:.3g} GB of a "
+    "variable: --outputs with fewer columns, fewer STEPS, or -o FILE.nc, which MATLAB reads with ncread"
+)
 FAULTS = (ValueError, LookupError, OverflowError, struct.error, zlib.error, MemoryError)
 
 
+class _Later(np.ndarray):
+    """Numbers that SciPy leaves room for: they are written block by block."""
+
+    @staticmethod
+    def of(shape: tuple[int, int]) -> np.ndarray:
+        """Numbers of that shape, which are in no memory."""
+        found = np.broadcast_to(np.zeros(()), shape)
+        return found.view(_Later) if found.size else found
+
+    def tobytes(self, order: Any = None) -> Any:
+        """What is written: itself, see :class:`_Room`."""
+        return self
+
+
+class _Room:
+    """A stream that leaves room for numbers that are written later, and notes where."""
+
+    def __init__(self, stream: IO[bytes]) -> None:
+        self.stream, self.places = stream, list[int]()
+        self.seek, self.tell = stream.seek, stream.tell
+
+    def write(self, data: Any) -> None:
+        """Bytes, or room for numbers."""
+        if isinstance(data, _Later):
+            self.places.append(self.tell())
+            self.seek(data.nbytes, 1)
+        else:
+            self.stream.write(data)
+
+    def fill(self, results: Results) -> None:
+        """Write times and values, column by column of some rows."""
+        first, count = 0, results.count
+        for time, values in results.blocks() if self.places else ():
+            for rows in _slices(*values.shape):
+                table = np.column_stack([time[rows], values[rows]]).T.copy()
+                starts = (
+                    self.places[0],
+                    *(self.places[1] + 8 * count * k for k in range(table.shape[0] - 1)),
+                )
+                for start, column in zip(starts, table, strict=True):
+                    self.seek(start + 8 * first)
+                    self.stream.write(column.data)
+                first += table.shape[1]
+
+
+def _slices(count: int, columns: int) -> Iterator[slice]:
+    step = max(1, BLOCK // (columns + 1))
+    return (slice(start, start + step) for start in range(0, count, step))
+
+
+def need_room(rows: int, columns: int) -> None:
+    """Raise UsageError where values have more bytes than MATLAB reads."""
+    size = 8 * rows * columns
+    if size > LARGEST:
+        raise UsageError(TOO_LARGE.format(size=size / 1e9, most=LARGEST / 1e9))
+
+
 def write(results: Results, path: str | Path) -> None:
-    """Write `results` to the file `path`, whole or not at all."""
+    """Write `results` to the file `path`, whole or not at all.
+
+    Raises
+    ------
+    UsageError
+        When they are too many for the format.
+    """
     from scipy.io import savemat
 
     need_rows(results)
+    need_room(*results.shape)
     content = {
-        "time": results.time.reshape(-1, 1),
-        "values": results.values,
+        "time": _Later.of((results.count, 1)),
+        "values": _Later.of((results.count, len(results.names))),
         "names": _cells(list(results.names)),
         "units": _cells([results.channel(name).unit for name in results.names]),
         "run": {name: np.array(text, dtype=object) for name, text in attributes(results).items()},
     }
     with whole_file(path, binary=True) as stream:
         memory = None if stream.seekable() else BytesIO()
-        draft = memory or stream
-        savemat(draft, content)
-        draft.seek(0)
-        draft.write(HEAD)  # in place of one with the time of day
+        room = _Room(memory or stream)
+        savemat(room, content)
+        room.seek(0)
+        room.write(HEAD)  # in place of one with the time of day
+        room.fill(results)
         if memory:
             stream.write(memory.getbuffer())
 
@@ -110,4 +183,5 @@ register_format(
     "MATLAB and Octave: time, values, names, units, and a struct run with the texts of the run",
     write,
     read,
+    need_room=need_room,
 )

@@ -10,7 +10,9 @@ Dimensions are ``time``, ``body`` and ``axis`` (or ``angle``)::
 ``body`` holds the statements (``PART/2``). A variable has ``units`` and ``long_name``, that of a
 single column also ``channel``, its name in the deck, ``quantity`` and ``title``. What a body does
 not have (a POINT_MASS has no angles) is not a number. The attribute ``channels`` lists all columns
-in their order (JSON); the others are the texts of the run, see above.
+in their order (JSON); the others are the texts of the run, see above. The times are records, one
+behind the other, so that a file of more than 262 144 numbers is written while its run lasts; it has
+an attribute ``reserved`` of blanks, which leaves room for what the run has found.
 """
 
 from __future__ import annotations
@@ -18,16 +20,17 @@ from __future__ import annotations
 import json
 import re
 import struct
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from io import BytesIO
+from math import prod
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from adamslite.errors import FormatError, UsageError
 from adamslite.language.text import contents
-from adamslite.outputs.whole_files import whole_file
+from adamslite.outputs import row_by_row
 from adamslite.results.channels import describe
 from adamslite.results.formats import register_format
 from adamslite.results.results import Results
@@ -47,120 +50,123 @@ PLACES = {part: (group, n) for group, parts in GROUPS.items() for n, part in enu
 BODIES = ("PART/", "POINT_MASS/")
 # 64-bit offsets: a file may be larger than 2 GB.
 VERSION = 2
-# Bytes of a variable, and those that the header takes for it.
-LARGEST, LARGEST_TOLD = 2**32 - 4, 2**31 - 8
-TOO_LARGE = (
-    "'{name}' takes {size:.3g} GB, and NetCDF-3 holds {most:.3g} GB of each variable: --outputs "
-    "with fewer columns, fewer STEPS, or -o FILE.csv"
-)
+#: Rows that the format can count.
+MOST_ROWS = 2**31 - 1
+TOO_LONG = "NetCDF-3 holds {most} rows, and there are {rows}: fewer STEPS, or -o FILE.csv"
+#: Attributes that are known when the run has ended, for which a long file has room, and the one
+#: that takes what is left of it.
+LATE, ROOM_BYTES, ROOM = ("outcome", "message", "summary", "comments", "linear"), 2**14, "reserved"
 HDF5 = b"\x89HDF"
 TEXT = "utf-8"
 
 
-class _Later:
-    """The values of a variable, ``columns`` (nb, 3) or one of them (-1: the time), for which there
-    is room: they are written block by block.  ``size`` is that of the header, which readers ignore.
+class _Records:
+    """What SciPy takes for the values of a variable along the time, and leaves to others: rows are
+    written behind what it writes.
     """
 
-    itemsize = 8
+    itemsize, dtype = 8, np.dtype(">f8")
 
-    def __init__(self, count: int, columns: np.ndarray) -> None:
-        self.columns, self.shape = columns, (count, *columns.shape)
-        self.bytes = self.itemsize * count * columns.size
-        self.size = min(self.bytes, LARGEST_TOLD) // self.itemsize
+    def __init__(self, count: int, shape: tuple[int, ...]) -> None:
+        self.count, self.shape, self.size = count, (count, *shape), prod(shape)
 
-    def tobytes(self) -> _Later:
-        """What is written: itself, see :class:`_Room`."""
+    def __len__(self) -> int:
+        return self.count
+
+    def __getitem__(self, row: int) -> _Records:
         return self
 
-    def of(self, time: np.ndarray, values: np.ndarray) -> bytes:
-        """What belongs there of some rows: times (n,), values (n, nc)."""
-        if self.columns.ndim == 0:
-            return (time if self.columns < 0 else values[:, self.columns]).astype(">f8").tobytes()
-        found = values[:, self.columns].astype(">f8")  # -1 takes the last column
-        found[:, self.columns < 0] = np.nan
-        return found.tobytes()
-
-
-class _Room:
-    """A stream that leaves room for values that are written later, and notes where."""
-
-    def __init__(self, stream: IO[bytes]) -> None:
-        self.stream, self.later = stream, dict[int, _Later]()
-        self.seek, self.tell, self.closed = stream.seek, stream.tell, False
-
-    def write(self, data: bytes | _Later) -> None:
-        """Bytes, or room for values."""
-        if isinstance(data, _Later):
-            self.later[self.tell()] = data
-            self.seek(data.bytes, 1)
-        else:
-            self.stream.write(data)
-
-    def fill(self, results: Results) -> None:
-        """Write the values."""
-        first = 0
-        for time, values in results.blocks():
-            for at, each in self.later.items():
-                self.seek(at + first * (each.bytes // max(1, results.count)))
-                self.stream.write(each.of(time, values))
-            first += len(values)
-
-    def close(self) -> None:
-        """The header is written; whose stream it is, closes that."""
-        self.closed = True
+    def __iter__(self) -> Iterator[np.ndarray]:
+        return iter(())
 
 
 def write(results: Results, path: str | Path) -> None:
     """Write `results` to the file `path`, whole or not at all."""
     need_rows(results)
-    with whole_file(path, binary=True) as stream:
-        write_to(results, stream)
+    row_by_row.write(LAYOUT, results, path)
 
 
 def content(results: Results) -> bytes:
-    """What a file of `results` holds."""
+    """What a file of `results` holds, however long."""
+    need_rows(results)
+    return b"".join(row_by_row.pieces(LAYOUT, results, long=False))
+
+
+def _head(results: Results, long: bool) -> bytes:
+    """All but the rows; in a long file there is room for whatever the run comes to."""
+    need_room(*results.shape)
+    texts = {name: text.encode(TEXT) for name, text in attributes(results).items()}
+    if long:
+        taken = sum(map(_taken, LATE, (texts.get(name, b"") for name in LATE)))
+        texts[ROOM] = b" " * (ROOM_BYTES - taken)
+    return _with_attributes(results, texts)
+
+
+def need_room(rows: int, columns: int) -> None:
+    """Raise UsageError for more rows than the format can count."""
+    if rows > MOST_ROWS:
+        raise UsageError(TOO_LONG.format(rows=rows, most=MOST_ROWS))
+
+
+def _taken(name: str, text: bytes) -> int:
+    """Bytes that an attribute takes, none without a text."""
+    return 12 + sum(size + -size % 4 for size in (len(name), len(text))) if text else 0
+
+
+def _with_attributes(results: Results, texts: dict[str, bytes]) -> bytes:
+    from scipy.io import netcdf_file
+
     memory = BytesIO()
-    write_to(results, memory)
+    file = netcdf_file(memory, "w", version=VERSION)
+    for name, text in texts.items():
+        setattr(file, name, text)
+    file.channels = json.dumps(results.names).encode(TEXT)
+    file.createDimension("time", None)
+    variable = _variable(file, "time", ("time",), results.count)
+    variable.long_name, variable.units = b"time", results.channel("time").unit.encode(TEXT)
+    bodies, single = _of_bodies(results)
+    _write_bodies(file, results, bodies)
+    _write_single(file, results, single)
+    file.flush()
     return memory.getvalue()
 
 
-def write_to(results: Results, stream: IO[bytes]) -> None:
-    """Write `results` to an open stream, some rows at a time."""
-    from scipy.io import netcdf_file
+def _rows(results: Results) -> Callable[[np.ndarray, np.ndarray], Iterator[bytes]]:
+    """What rows hold: the time, what moves, single columns."""
+    bodies, single = _of_bodies(results)
+    groups = [where.ravel() for where in bodies.where.values()]
+    columns = np.concatenate([*groups, np.array(single, dtype=int)])
+    there = np.flatnonzero(columns >= 0)
 
-    room = _Room(stream)
-    file = netcdf_file(room, "w", version=VERSION)
-    for name, text in attributes(results).items():
-        setattr(file, name, text.encode(TEXT))
-    file.channels = json.dumps(results.names).encode(TEXT)
-    # A dimension of length 0 means one that grows, which then has no records.
-    file.createDimension("time", results.count or None)
-    variable = _variable(file, "time", ("time",), results, np.array(-1))
-    variable.long_name, variable.units = b"time", results.channel("time").unit.encode(TEXT)
-    rest = _write_bodies(file, results)
-    _write_single(file, results, rest)
-    file.close()
-    room.fill(results)
+    def written(time: np.ndarray, values: np.ndarray) -> Iterator[bytes]:
+        rows = np.full((len(time), 1 + len(columns)), np.nan, dtype=">f8")
+        rows[:, 0] = time
+        rows[:, 1 + there] = values[:, columns[there]]
+        yield rows.tobytes()
+
+    return written
 
 
-def _variable(
-    file: Any, name: str, dimensions: tuple[str, ...], results: Results, columns: np.ndarray
-) -> Any:
-    """A variable whose values are these columns.
+def _tail(results: Results, long: bool) -> bytes:
+    return b""
 
-    Raises
-    ------
-    UsageError
-        When it has no room in the format.
-    """
-    values = _Later(results.count, columns)
-    if values.bytes > LARGEST:
-        raise UsageError(TOO_LARGE.format(name=name, size=values.bytes / 1e9, most=LARGEST / 1e9))
+
+LAYOUT = row_by_row.Layout(_head, _rows, _tail)
+
+
+def _variable(file: Any, name: str, dimensions: tuple[str, ...], count: int) -> Any:
+    """A variable along the time, of rows that are written elsewhere."""
     variable = file.createVariable(name, "d", dimensions)
-    if results.count:
-        variable.__dict__["data"] = values
+    shape = tuple(file.dimensions[each] for each in dimensions[1:])
+    variable.__dict__["data"] = _Records(count, shape)
     return variable
+
+
+class _Bodies(NamedTuple):
+    """What moves: labels of the statements, and by group the columns (nb, 3), -1 for none."""
+
+    labels: list[str]
+    where: dict[str, np.ndarray]
 
 
 def _split(name: str) -> tuple[str, str]:
@@ -169,8 +175,8 @@ def _split(name: str) -> tuple[str, str]:
     return (body, part) if part in PLACES and body.startswith(BODIES) else ("", "")
 
 
-def _write_bodies(file: Any, results: Results) -> list[int]:
-    """Write what moves; the columns that are left."""
+def _of_bodies(results: Results) -> tuple[_Bodies, list[int]]:
+    """What moves, and the columns that are left."""
     found = [_split(name) for name in results.names]
     bodies = {body: n for n, body in enumerate(dict.fromkeys(body for body, _ in found if body))}
     columns = {group: np.full((len(bodies), 3), -1) for group in GROUPS}
@@ -178,19 +184,23 @@ def _write_bodies(file: Any, results: Results) -> list[int]:
         if body:
             group, axis = PLACES[part]
             columns[group][bodies[body], axis] = column
-    if bodies:
-        _label(file, "body", [body.encode(TEXT) for body in bodies])
+    where = {group: each for group, each in columns.items() if (each >= 0).any()}
+    single = [column for column, (body, _) in enumerate(found) if not body]
+    return _Bodies(list(bodies), where), single
+
+
+def _write_bodies(file: Any, results: Results, bodies: _Bodies) -> None:
+    if bodies.labels:
+        _label(file, "body", [label.encode(TEXT) for label in bodies.labels])
         _label(file, "axis", [word.encode() for word in AXIS])
-        if (columns["orientation"] >= 0).any():
+        if "orientation" in bodies.where:
             _label(file, "angle", [word.encode() for word in ANGLE])
-    for group, where in columns.items():
-        if (where >= 0).any():
-            last = "angle" if group == "orientation" else "axis"
-            variable = _variable(file, group, ("time", "body", last), results, where)
-            channel = results.channel(results.names[int(where[where >= 0][0])])
-            variable.long_name = f"{channel.quantity}, ground axes".encode()
-            variable.units = channel.unit.encode(TEXT)
-    return [column for column, (body, _) in enumerate(found) if not body]
+    for group, where in bodies.where.items():
+        last = "angle" if group == "orientation" else "axis"
+        variable = _variable(file, group, ("time", "body", last), results.count)
+        channel = results.channel(results.names[int(where[where >= 0][0])])
+        variable.long_name = f"{channel.quantity}, ground axes".encode()
+        variable.units = channel.unit.encode(TEXT)
 
 
 def _label(file: Any, name: str, labels: list[bytes]) -> None:
@@ -208,7 +218,7 @@ def _write_single(file: Any, results: Results, columns: list[int]) -> None:
     for column in columns:
         name = results.names[column]
         named = identifier(name, used)
-        variable = _variable(file, named, ("time",), results, np.array(column))
+        variable = _variable(file, named, ("time",), results.count)
         channel = results.channel(name)
         variable.channel = name.encode(TEXT)
         variable.long_name = channel.long_name.encode(TEXT)
@@ -325,4 +335,6 @@ register_format(
     "opens in xarray",
     write,
     read,
+    layout=LAYOUT,
+    need_room=need_room,
 )

@@ -8,7 +8,7 @@ from typing import IO, Any, Literal, overload
 
 from adamslite.errors import UsageError
 from adamslite.notation import STDOUT
-from adamslite.outputs.drafts import draft_of, lock, remove_drafts
+from adamslite.outputs.drafts import WINDOWS, draft_of, lock, remove_drafts
 
 #: How matrices for MATLAB begin, which have no room for a word: no reader of numbers minds blanks.
 PLAIN = " \t "
@@ -59,7 +59,10 @@ def whole_file(path: str | Path, binary: bool = False) -> Iterator[IO[Any]]:
                 yield stream
                 stream.flush()
                 os.fsync(stream.fileno())  # some disks are known to be full only now
-            os.replace(draft, target)
+                if not WINDOWS:
+                    os.replace(draft, target)  # as long as it is locked, nobody removes it
+            if WINDOWS:  # where no file that is open gets another name
+                os.replace(draft, target)
     finally:
         with suppress(OSError):
             draft.unlink(missing_ok=True)

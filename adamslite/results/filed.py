@@ -24,8 +24,8 @@ class Rows(Protocol):
     def count(self) -> int:
         """How many rows there are."""
 
-    def parts(self, size: int) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-        """Times and values of so many rows after the other."""
+    def parts(self, size: int, first: int = 0) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """Times and values of so many rows after the other, from one of them on."""
 
 
 class FiledResults(Results):
@@ -69,14 +69,14 @@ class FiledResults(Results):
         """Rows and columns of the values."""
         return self.count, len(self.names)
 
-    def parts(self, size: int) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-        """Times and values of so many rows after the other."""
-        for time, values in self._rows.parts(size):
+    def parts(self, size: int, first: int = 0) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """Times and values of so many rows after the other, from one of them on."""
+        for time, values in self._rows.parts(size, first):
             yield time, values if self._columns is None else values[:, self._columns]
 
-    def blocks(self) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-        """Times (n,) and values (n, nc), some rows at a time."""
-        return self.parts(max(1, BLOCK // max(1, len(self._rows.names))))
+    def blocks(self, first: int = 0) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """Times (n,) and values (n, nc) from a row on, some rows at a time."""
+        return self.parts(max(1, BLOCK // max(1, len(self._rows.names))), first)
 
     def limited(self, columns: list[int]) -> Results:
         """The results with some of the columns alone, which stay in the file."""

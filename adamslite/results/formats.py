@@ -22,7 +22,8 @@ from typing import Any, TypeAlias
 from adamslite.errors import FormatError, UsageError
 
 Written: TypeAlias = Any
-"""``Results``, whose module finds its formats here and cannot be imported from here."""
+Layout: TypeAlias = Any
+"""``Results`` and ``Layout``, whose modules find formats here and cannot be imported from here."""
 DEFAULT = ".csv"
 """What a name without a suffix gets; the null device has none."""
 
@@ -33,7 +34,9 @@ class Format:
 
     ``library``: loads what they need beyond the dependencies of the package, or raises a
     UsageError that says what to install.  ``exact``: names, times and numbers come back to the
-    bit.
+    bit.  ``layout``: of a format that is written row by row, as
+    :mod:`adamslite.outputs.row_by_row` has it.  ``need_room(rows, columns)`` raises a UsageError
+    where the format does not hold so many.
     """
 
     suffix: str
@@ -42,6 +45,8 @@ class Format:
     read: Callable[[str | Path], Written] | None = None
     library: Callable[[], object] | None = None
     exact: bool = True
+    layout: Layout | None = None
+    need_room: Callable[[int, int], None] | None = None
 
     def require_library(self) -> None:
         """Raise UsageError where a library is missing, before a run rather than after it."""
@@ -59,11 +64,13 @@ def register_format(
     read: Callable[[str | Path], Written] | None = None,
     library: Callable[[], object] | None = None,
     exact: bool = True,
+    layout: Layout | None = None,
+    need_room: Callable[[int, int], None] | None = None,
 ) -> None:
     """Enter the format of a suffix, which begins with a dot and is in lower case."""
     if suffix in _FORMATS:
         raise ValueError(f"format {suffix} is registered twice")
-    _FORMATS[suffix] = Format(suffix, what, write, read, library, exact)
+    _FORMATS[suffix] = Format(suffix, what, write, read, library, exact, layout, need_room)
 
 
 @cache

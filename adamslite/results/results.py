@@ -138,9 +138,11 @@ class Results:
 
         return unit_symbols(self.meta.get("units", ""))
 
-    def blocks(self) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-        """Times (n,) and values (n, nc) of all rows, some at a time where they are in a file."""
-        yield self.time, self.values
+    def blocks(self, first: int = 0) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """Times (n,) and values (n, nc) of the rows from one on, some at a time where they are in a
+        file.
+        """
+        yield self.time[first:], self.values[first:]
 
     def limited(self, columns: list[int]) -> Results:
         """The results with some of the columns alone."""

@@ -31,9 +31,12 @@ def selected(names: Sequence[str], patterns: Iterable[str]) -> list[int]:
 
 def limited(results: Results, patterns: Iterable[str]) -> Results:
     """The results with these columns alone; patterns that mean none are passed over."""
-    wanted = tuple(patterns)
-    kept = [k for k, name in enumerate(results.names) if any(means(each, name) for each in wanted)]
-    return results.limited(kept)
+    return results.limited(meant(results.names, tuple(patterns)))
+
+
+def meant(names: Sequence[str], patterns: Sequence[str]) -> list[int]:
+    """The columns that any of the patterns means; patterns may mean none."""
+    return [k for k, name in enumerate(names) if any(means(each, name) for each in patterns)]
 
 
 def means(pattern: str, name: str) -> bool:

@@ -22,6 +22,7 @@ NOTES = (
     "user",
     "assembled", "start speeds", "redundant", "not reached", "not moved", "equilibrium", "order",
     "accuracy", "energy", "time", "linear", "no number", "sensor", "out of its law", "info",
+    "not looked for",
 )  # fmt: skip
 
 

@@ -21,6 +21,7 @@ from adamslite.integrators import contract
 if TYPE_CHECKING:
     from adamslite.equations.system import System
     from adamslite.outputs.part_file import Part, PartFile, Stretch
+    from adamslite.outputs.row_by_row import GrowingFile
 
 #: Time before the first state is written, and between two of them [s], less than five with what it
 #: takes to ask for one and to write it; a run that took longer than the last is not done again.
@@ -63,6 +64,8 @@ class History:
     def __init__(self) -> None:
         self.stretches: list[Stretch] = []
         self.part: PartFile | None = None
+        #: The file of the results, where that is written while the run lasts.
+        self.table: GrowingFile | None = None
 
     def append(self, piece: Piece, static: bool, after_rest: bool) -> None:
         """Add what an analysis wrote; a state both ends and begins two analyses only once.
@@ -74,6 +77,7 @@ class History:
         if last and last.count and piece.count and _end(last) == piece.times[0]:
             if after_rest:
                 self.stretches[-1] = last.until(last.count - 1)
+                self._taken_back()
             elif not static:
                 piece = Piece(piece.times[1:], piece.names, piece.values[1:])
         if piece.count or not last:
@@ -84,6 +88,8 @@ class History:
         self.stretches.append(piece)
         if self.part:
             self.file(self.part)
+        if self.table:
+            self.table.follow(self)
 
     def file(self, part: PartFile) -> None:
         """Keep the rows in a file from here on."""
@@ -99,6 +105,7 @@ class History:
             if last.count > rows:
                 self.stretches.append(last.until(last.count - rows))
             rows -= last.count
+        self._taken_back()
 
     def mark(self) -> list[Stretch]:
         """What :meth:`return_to` goes back to."""
@@ -109,6 +116,12 @@ class History:
         self.stretches = list(mark)
         if self.part and any(isinstance(each, Piece) for each in mark):
             self.file(self.part)
+        self._taken_back()
+
+    def _taken_back(self) -> None:
+        """Rows may have been taken back."""
+        if self.table:
+            self.table.back_to(self.count)
 
     @property
     def in_memory(self) -> int:
@@ -119,21 +132,25 @@ class History:
     @property
     def names(self) -> tuple[str, ...]:
         """The columns of all stretches; one that a stretch does not have holds no number there."""
-        if len(self.stretches) == 1:
-            return self.stretches[0].names
-        return tuple(dict.fromkeys(name for each in self.stretches for name in each.names))
+        lists = dict.fromkeys(each.names for each in self.stretches)
+        if len(lists) == 1:
+            return next(iter(lists))
+        return tuple(dict.fromkeys(name for names in lists for name in names))
 
     @property
     def count(self) -> int:
         """How many rows there are."""
         return sum(each.count for each in self.stretches)
 
-    def parts(self, size: int) -> Iterator[Part]:
-        """Times and values of so many rows after the other, whatever stretches they are in."""
+    def parts(self, size: int, first: int = 0) -> Iterator[Part]:
+        """Times and values of so many rows after the other, from the row ``first`` on, whatever
+        stretches they are in.
+        """
         names, room = self.names, size
         held: list[Part] = []
         for each in self.stretches:
-            at = 0
+            at = min(first, each.count)
+            first -= at
             while at < each.count:
                 took = min(room, each.count - at)
                 times, values = each.part(at, at + took)
@@ -193,6 +210,8 @@ class Journal:
 
     #: Why a session cannot be resumed, of which rows alone are kept.
     unkept = ""
+    #: The file of the results of its first session, where that is written while it lasts.
+    table: GrowingFile | None = None
 
     def __init__(
         self, path: Path, facts: Callable[[], Mapping[str, Any]], found: PartFile | None = None
@@ -242,6 +261,8 @@ class Journal:
         if found is None:
             return None
         history.part, (code, history.stretches) = self.part, found
+        if history.table:
+            history.table.catch_up(history)
         return code
 
     def close(self, keep: bool) -> None:

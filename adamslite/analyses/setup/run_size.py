@@ -17,10 +17,11 @@ from typing import NamedTuple
 
 from adamslite.errors import NoRoom
 from adamslite.machine import free_disk, free_memory
+from adamslite.results.formats import format_of
 
 NUMBER, OF_TIME = 8, 5
 #: Formats that are written row by row, and those that are where rows are kept in a file.
-BY_ROWS, FROM_A_FILE = (".csv", ""), (".csv", "", ".nc")
+BY_ROWS, FROM_A_FILE = (".csv", ""), (".csv", "", ".nc", ".mat")
 GIGA = 1e9
 TOO_LARGE = (
     "The results would have {rows} rows of {columns} columns, which take {need:.3g} GB of {what}, "
@@ -58,7 +59,11 @@ def require_room(rows: Rows, kept: int, file: Path | None) -> None:
     ------
     NoRoom
         With what would be needed, what there is, and what to do.
+    UsageError
+        When the format does not hold so many.
     """
+    if file is not None and (fits := format_of(file).need_room):
+        fits(rows.number, kept)
     by_rows = file is None or file.suffix.lower() in (FROM_A_FILE if rows.filed else BY_ROWS)
     own = 0 if rows.filed else rows.record + rows.copies * rows.columns
     whole = 0 if by_rows else (3 if rows.filed else 1) * rows.columns

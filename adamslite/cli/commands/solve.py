@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
     from adamslite.analyses.dynamics.history import Journal
     from adamslite.outputs.part_file import PartFile
+    from adamslite.outputs.row_by_row import GrowingFile
     from adamslite.results.results import Results
     from adamslite.scene import Scene
 
@@ -104,7 +105,7 @@ def run(args: argparse.Namespace) -> int:
 
 def _prepared(
     args: argparse.Namespace, part: "PartFile | None"
-) -> "tuple[Scene, str, Sequence[Path], Path | None, Journal | None]":
+) -> "tuple[Scene, str, Sequence[Path], Path | None, Journal]":
     """What is solved, the files that will be written, the page, where the run is kept."""
     from adamslite.errors import UsageError
     from adamslite.result_files import plan
@@ -124,7 +125,9 @@ def _prepared(
     page = _page(args, scene, output)
     if not args.quiet:
         _tell_warnings(scene)
-    return scene, output, files, page, _journal(args, scene, output, part)
+    journal = _journal(args, scene, output, part)
+    journal.table = _growing(args, output)
+    return scene, output, files, page, journal
 
 
 def _solved(
@@ -133,29 +136,31 @@ def _solved(
     output: str,
     files: Sequence[Path],
     page: Path | None,
-    journal: "Journal | None",
+    journal: "Journal",
 ) -> int:
     """Solve and write what was planned; return the exit code."""
     from adamslite.progress import Progress, TalkingProgress
     from adamslite.result_files import adams_files
     from adamslite.scene import run_scene
 
-    progress = Progress() if args.quiet else TalkingProgress()
+    progress, table = Progress() if args.quiet else TalkingProgress(), journal.table
     try:
         path = None if output == STDOUT else Path(output)
         folder = path.parent if path else None
         results = run_scene(scene, _options(args), progress, folder, journal, path)
+        progress.close()
+        written = _write(results, output, files, table)
     finally:
         progress.close()
-    written = _write(results, output, files)
+        if table:
+            table.close()
     if output != STDOUT:
         written += _write_adams(results, adams_files(scene, output))
     if page:
         _write_page(scene, results, page)
         written.insert(0, (PAGE, page))
     _summarize(scene, args, results, output, written)
-    if journal:
-        _close(journal, results)
+    _close(journal, results)
     found = results.confirmation
     if not results.outcome.is_requested or (found and found.interrupted):
         return STOPPED_EARLY
@@ -184,7 +189,7 @@ def _resumed(args: argparse.Namespace) -> "PartFile | None":
 
 def _journal(
     args: argparse.Namespace, scene: "Scene", output: str, found: "PartFile | None"
-) -> "Journal | None":
+) -> "Journal":
     """Where the run is kept when it takes long."""
     from adamslite.analyses.dynamics.history import Journal
     from adamslite.errors import UsageError
@@ -307,14 +312,29 @@ def _write_adams(results: "Results", paths: Sequence[Path]) -> list[Written]:
     return written
 
 
-def _write(results: "Results", output: str, files: Sequence[Path]) -> list[Written]:
+def _growing(args: argparse.Namespace, output: str) -> "GrowingFile | None":
+    """The file of the results, where it can be written while the run lasts."""
+    from adamslite.outputs.row_by_row import GrowingFile
+    from adamslite.results.formats import format_of
+
+    path = Path(output)
+    if output == STDOUT or (path.exists() and not path.is_file()):
+        return None
+    layout = format_of(path).layout
+    return GrowingFile(layout, path, args.outputs) if layout else None
+
+
+def _write(
+    results: "Results", output: str, files: Sequence[Path], table: "GrowingFile | None"
+) -> list[Written]:
     """Write the time histories, and the files of LINEAR commands, whose names are returned."""
     if output == STDOUT:
         from adamslite.outputs.csv import write_to
 
         write_to(results, sys.stdout)
         return []
-    results.save(output)
+    if not (table and table.finish(results)):
+        results.save(output)
     if not results.linearizations:
         return []
     from adamslite.outputs.modes import save_command

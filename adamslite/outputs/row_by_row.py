@@ -1,0 +1,217 @@
+"""Files that are written row by row, and so can be written while their run lasts.
+
+A :class:`Layout` says what stands before the rows, what they are, and what stands behind them.
+Where a table is long, what stands before the rows is as long whatever the run comes to, so that it
+is written anew in its place when the run has ended: then nothing is left to do but some rows, and
+a run that is interrupted is over at once, however many rows it has.  A file is the same to the byte
+whether it has grown or was written at the end.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, suppress
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any, NamedTuple, Protocol
+
+import numpy as np
+
+from adamslite.outputs.whole_files import whole_file
+
+if TYPE_CHECKING:
+    from adamslite.results.results import Results
+
+#: A file of more numbers is a long one.
+LONG = 2**18
+#: Numbers that are written at once while a run lasts, and read at once for it.
+SLICE, BLOCK = 2**16, 2**20
+#: Bytes that the disk is asked to take while the run goes on, so that none wait for its end.
+SENT = 2**23
+
+
+class Layout(NamedTuple):
+    """A format as functions.
+
+    ``head(results, long)`` is what stands before the rows, ``tail(results, long)`` what stands
+    behind them; ``rows(results)`` a function that writes times (n,) and values (n, nc).
+    """
+
+    head: Callable[[Results, bool], bytes]
+    rows: Callable[[Results], Callable[[np.ndarray, np.ndarray], Iterator[bytes]]]
+    tail: Callable[[Results, bool], bytes]
+
+
+class Rows(Protocol):
+    """The rows of a run that goes on."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the columns."""
+
+    @property
+    def count(self) -> int:
+        """How many rows there are."""
+
+    def parts(self, size: int, first: int = 0) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """Times and values of so many rows after the other, from one of them on."""
+
+
+def is_long(results: Results) -> bool:
+    """Whether a file of these results is a long one."""
+    return results.count * (len(results.names) + 1) > LONG
+
+
+def pieces(layout: Layout, results: Results, long: bool) -> Iterator[bytes]:
+    """All that a file of results holds, in its order."""
+    rows = layout.rows(results)
+    yield layout.head(results, long)
+    for time, values in results.blocks():
+        yield from rows(time, values)
+    yield layout.tail(results, long)
+
+
+def write(layout: Layout, results: Results, path: str | Path) -> None:
+    """Write results to the file `path`, whole or not at all."""
+    with whole_file(path, binary=True) as stream:
+        stream.writelines(pieces(layout, results, is_long(results)))
+
+
+class GrowingFile:
+    """A file of results that is written while their run lasts.
+
+    Parameters
+    ----------
+    layout : Layout
+    path : Path
+        It changes when the file is finished.
+    patterns : sequence of str
+        Of the columns that are written; all are without.
+    """
+
+    def __init__(self, layout: Layout, path: Path, patterns: Sequence[str] = ()) -> None:
+        self.layout, self.path, self.patterns = layout, path, patterns
+        #: What is known of the results before the first row, by the names of their columns.
+        self.begun: Callable[[tuple[str, ...]], Results] | None = None
+        #: Whether rows of an earlier process are being written again.
+        self.catching_up = False
+        self._draft: AbstractContextManager[IO[Any]] | None = None
+        self._forget()
+
+    def _forget(self) -> None:
+        self._names: tuple[str, ...] | None = None
+        self._chosen: list[int] | None = None
+        # Rows that are written, and the bytes to their ends.
+        self._rows, self._ends = [0], [0]
+        self._sent = 0
+
+    @property
+    def count(self) -> int:
+        """How many rows are written."""
+        return self._rows[-1]
+
+    def follow(self, rows: Rows) -> None:
+        """Write further rows, where they are many enough."""
+        if self.begun is None:
+            return
+        count, names = rows.count, rows.names
+        if names != self._names:
+            self._forget()
+            self._names, self._chosen = names, self._columns(names)
+        width = 1 + len(names if self._chosen is None else self._chosen)
+        if count * width <= LONG or (count - self.count) * width < SLICE:
+            return
+        try:
+            self._follow(rows)
+        except OSError:  # it is written at the end, which says so if there is still no room
+            self.close()
+
+    def catch_up(self, rows: Rows) -> None:
+        """Write the rows that a resumed run begins with."""
+        self.catching_up = True
+        self.follow(rows)
+        self.catching_up = False
+
+    def back_to(self, count: int) -> None:
+        """Rows from this one on have been taken back."""
+        while self._rows[-1] > count:
+            self._rows.pop()
+            self._ends.pop()
+
+    def finish(self, results: Results) -> bool:
+        """Write the rest; False when the file has to be written as a whole, as it has not grown, or
+        the results are not as they were begun.
+
+        Raises
+        ------
+        KeyboardInterrupt
+            When it has been interrupted while it caught up: there is nothing new to be written.
+        """
+        if self.catching_up:
+            raise KeyboardInterrupt
+        head, long = self.layout.head(results, True), is_long(results)
+        grown = self._draft is not None and long and results.names == self._own_names()
+        if not grown or len(head) != self._ends[0] or results.count < self.count:
+            self.close()
+            return False
+        assert self._draft is not None
+        stream, rows = self._stream, self.layout.rows(results)
+        stream.seek(self._ends[-1])
+        for time, values in results.blocks(self.count):
+            stream.writelines(rows(time, values))
+        stream.write(self.layout.tail(results, True))
+        stream.truncate()
+        stream.seek(0)
+        stream.write(head)
+        draft, self._draft = self._draft, None
+        draft.__exit__(None, None, None)
+        return True
+
+    def close(self) -> None:
+        """Give up what there is of it."""
+        draft, self._draft, self.begun = self._draft, None, None
+        if draft:
+            fault = KeyboardInterrupt()
+            with suppress(OSError, KeyboardInterrupt):
+                draft.__exit__(KeyboardInterrupt, fault, None)
+
+    def _columns(self, names: tuple[str, ...]) -> list[int] | None:
+        """The columns that are written; None for all."""
+        if not self.patterns:
+            return None
+        from adamslite.results.selection import meant
+
+        return meant(names, self.patterns)
+
+    def _own_names(self) -> tuple[str, ...]:
+        names = self._names or ()
+        return names if self._chosen is None else tuple(names[k] for k in self._chosen)
+
+    def _follow(self, rows: Rows) -> None:
+        assert self.begun is not None
+        results = self.begun(self._own_names())
+        if self._draft is None:
+            draft = whole_file(self.path, binary=True)
+            self._stream = draft.__enter__()
+            self._draft = draft
+        if self.count == 0:
+            head = self.layout.head(results, True)
+            self._stream.seek(0)
+            self._stream.write(head)
+            self._ends = [len(head)]
+        self._stream.seek(self._ends[-1])
+        write = self.layout.rows(results)
+        for time, values in rows.parts(max(1, BLOCK // max(1, len(rows.names))), self.count):
+            own = values if self._chosen is None else values[:, self._chosen]
+            self._stream.writelines(write(time, own))
+            self._rows.append(self.count + len(time))
+            self._ends.append(self._stream.tell())
+            self._send()
+
+    def _send(self) -> None:
+        """Have the disk take what is written, without waiting for it."""
+        end = self._ends[-1]
+        if end - self._sent >= SENT and hasattr(os, "posix_fadvise"):
+            self._stream.flush()
+            os.posix_fadvise(self._stream.fileno(), self._sent, 0, os.POSIX_FADV_DONTNEED)
+            self._sent = end

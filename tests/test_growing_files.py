@@ -1,0 +1,298 @@
+"""Files of results that are written while their run lasts: the bytes of those written at the end.
+
+    a mass on a spring, x = cos t, 4000 outputs: 52 000 numbers
+
+The bounds are lowered so that a file is long from 3000 numbers on, and grows by 500.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from unfinished_runs import OFTEN, command, solved, until_there_is_a_state
+from unfinished_scenes import pendulum, rests, spring, written
+
+from adamslite.analyses.dynamics.history import History, Piece
+from adamslite.outputs import row_by_row
+from adamslite.outputs.row_by_row import GrowingFile
+from adamslite.results.formats import format_of
+from adamslite.results.outcomes import Outcome
+from adamslite.results.results import Results
+
+NAMES = ("PART/2.x", "PART/2.psi", "REQUEST/1.F2")
+FORMATS = (".csv", ".nc")
+POSIX = pytest.mark.skipif(os.name != "posix", reason="a process of Windows gets no signal")
+
+
+@pytest.fixture(autouse=True)
+def _soon(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(row_by_row, "LONG", 300)
+    monkeypatch.setattr(row_by_row, "SLICE", 50)
+    monkeypatch.setattr(row_by_row, "SENT", 1000)
+
+
+def results(count: int, names: tuple[str, ...] = NAMES, **facts: Any) -> Results:
+    """Rows of numbers of all sizes."""
+    numbers = np.random.default_rng(5).standard_normal((count, len(names) + 1))
+    numbers *= 10.0 ** np.arange(-3, 3 * len(names), 3)
+    found = {"meta": {"deck": "a spring", "units": "N kg m s"}, **facts}
+    return Results(time=np.arange(float(count)), names=names, values=numbers[:, 1:], **found)
+
+
+def piece(found: Results, first: int, end: int) -> Piece:
+    return Piece(found.time[first:end], found.names, found.values[first:end])
+
+
+def growing(path: Path, patterns: tuple[str, ...] = ()) -> tuple[History, GrowingFile]:
+    """A history that is followed by a file."""
+    layout = format_of(path).layout
+    assert layout is not None
+    history, table = History(), GrowingFile(layout, path, patterns)
+    table.begun = lambda names: results(0, names)
+    history.table = table
+    return history, table
+
+
+def drafts(folder: Path) -> list[Path]:
+    return [*folder.glob(".*.part")]
+
+
+def same(path: Path, whole: Results) -> bool:
+    """Whether a file has the bytes of one that was written at the end."""
+    other = path.with_name(f"other{path.suffix}")
+    whole.save(other)
+    return path.read_bytes() == other.read_bytes()
+
+
+LATE = {
+    "done": {},
+    "ended early": {"outcome": Outcome.CPU_LIMIT, "message": "at t = 3"},
+    "with notes": {"meta": {"deck": "a spring", "accuracy": "small", "units": "N kg m s"}},
+}
+
+
+@pytest.mark.parametrize("suffix", FORMATS)
+@pytest.mark.parametrize("late", LATE)
+def test_a_file_that_has_grown(tmp_path: Path, suffix: str, late: str) -> None:
+    path, whole = tmp_path / f"x{suffix}", results(1000, **LATE[late])
+    history, table = growing(path)
+    for first in range(0, 990, 30):
+        history.extend(piece(whole, first, first + 30))
+    history.extend(piece(whole, 990, 1000))
+    assert table.count >= 980 and len(drafts(tmp_path)) == 1 and not path.exists()
+    assert table.finish(whole)
+    assert not drafts(tmp_path) and same(path, whole)
+    read = Results.load(path)
+    assert (read.outcome, read.message) == (whole.outcome, whole.message)
+    assert dict(read.meta) == dict(whole.meta)
+    np.testing.assert_array_equal(read.values, whole.values)
+
+
+@pytest.mark.parametrize("suffix", FORMATS)
+def test_rows_that_are_taken_back(tmp_path: Path, suffix: str) -> None:
+    """A step that fails behind its first outputs, and another method that begins again."""
+    path, whole, other = tmp_path / f"x{suffix}", results(1000), results(1000)
+    other.values[:] = -1.0 / 3.0
+    history, table = growing(path)
+    history.extend(piece(whole, 0, 200))
+    mark = history.mark()
+    for first in range(200, 500, 30):
+        history.extend(piece(other, first, first + 30))
+    history.cut(100)
+    assert table.count <= 400
+    history.extend(piece(other, 400, 900))
+    history.return_to(mark)
+    assert table.count == 200
+    history.extend(piece(whole, 200, 1000))
+    assert table.finish(whole) and same(path, whole)
+
+
+def test_an_equilibrium_in_the_place_of_the_last_row(tmp_path: Path) -> None:
+    path, whole = tmp_path / "x.csv", results(1000)
+    history, table = growing(path)
+    history.append(piece(whole, 0, 400), static=False, after_rest=False)
+    rest = Piece(whole.time[399:], whole.names, -whole.values[399:])
+    history.append(rest, static=True, after_rest=True)
+    values = np.concatenate([whole.values[:399], -whole.values[399:]])
+    there = Results(time=whole.time, names=NAMES, values=values, meta=whole.meta)
+    assert table.finish(there) and same(path, there)
+
+
+@pytest.mark.parametrize("suffix", FORMATS)
+def test_some_columns(tmp_path: Path, suffix: str) -> None:
+    path, whole = tmp_path / f"x{suffix}", results(1000)
+    history, table = growing(path, ("PART/2.x", "REQUEST/*"))
+    for first in range(0, 1000, 100):
+        history.extend(piece(whole, first, first + 100))
+    chosen = whole.limited([0, 2])
+    assert table.finish(chosen) and same(path, chosen)
+
+
+@pytest.mark.parametrize("suffix", FORMATS)
+def test_columns_that_a_command_brings(tmp_path: Path, suffix: str) -> None:
+    """Rows before it hold no number there; the file begins anew."""
+    path, names = tmp_path / f"x{suffix}", (*NAMES, "REQUEST/2.F2")
+    history, table = growing(path)
+    history.extend(piece(results(500), 0, 500))
+    history.extend(piece(results(500, names), 0, 500))
+    table_of_all = history.whole
+    whole = Results(
+        time=table_of_all.times, names=names, values=table_of_all.values, meta=results(0).meta
+    )
+    assert table.finish(whole) and same(path, whole)
+
+
+@pytest.mark.parametrize("suffix", FORMATS)
+@pytest.mark.parametrize(
+    "facts", [{"meta": {"deck": "a spring", "units": "lbf lbm in s"}}, {"meta": {}}], ids=str
+)
+def test_results_that_are_not_as_they_began(
+    tmp_path: Path, suffix: str, facts: dict[str, Any]
+) -> None:
+    """Another method, whose name is shorter, has begun again: the head of a table has other bytes
+    then, while that of NetCDF has room.
+    """
+    path, whole = tmp_path / f"x{suffix}", results(1000, **facts)
+    history, table = growing(path)
+    history.extend(piece(whole, 0, 1000))
+    if not table.finish(whole):
+        assert not drafts(tmp_path)
+        whole.save(path)
+    assert same(path, whole)
+
+
+def test_more_than_there_is_room_for(tmp_path: Path) -> None:
+    """Of NetCDF the head then is longer than what was kept for it."""
+    path, whole = tmp_path / "x.nc", results(1000, message="far " * 10_000)
+    history, table = growing(path)
+    history.extend(piece(whole, 0, 1000))
+    assert not table.finish(whole) and not drafts(tmp_path)
+    whole.save(path)
+    assert Results.load(path).message == whole.message
+
+
+@pytest.mark.parametrize(
+    "end", [row_by_row.GrowingFile.close, lambda table: table.finish(results(9))]
+)
+def test_nothing_is_left(tmp_path: Path, end: Callable[[GrowingFile], Any]) -> None:
+    history, table = growing(tmp_path / "x.csv")
+    history.extend(piece(results(1000), 0, 1000))
+    assert drafts(tmp_path)
+    end(table)
+    assert [*tmp_path.iterdir()] == []
+
+
+def test_a_disk_that_is_full(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The run goes on; whether there is room is seen again when it has ended."""
+    history, table = growing(tmp_path / "x.csv")
+
+    def full(*_: Any) -> Any:
+        raise OSError(28, "No space left on device")
+
+    whole = results(1000)
+    history.extend(piece(whole, 0, 500))
+    with monkeypatch.context() as patch:
+        patch.setattr(row_by_row, "SENT", 0)
+        patch.setattr(os, "posix_fadvise", full, raising=False)
+        history.extend(piece(whole, 500, 900))
+    assert not drafts(tmp_path)
+    history.extend(piece(whole, 900, 1000))
+    assert not table.finish(whole) and [*tmp_path.iterdir()] == []
+
+
+def test_a_short_table_is_not_begun(tmp_path: Path) -> None:
+    history, table = growing(tmp_path / "x.csv")
+    history.extend(piece(results(70), 0, 70))
+    assert not drafts(tmp_path) and not table.finish(results(70))
+
+
+# runs
+
+CASES = {
+    "a spring": (spring(400, 4000), "--error", "1e-6"),
+    "two analyses": (rests(90, 3000), "--error", "1e-6"),
+    "some columns": (pendulum(20, 3000), "--outputs", "PART/*", "--integrator", "HHT"),
+}
+
+
+@pytest.mark.parametrize("suffix", FORMATS)
+@pytest.mark.parametrize("case", CASES)
+def test_a_run_writes_the_same_bytes(tmp_path: Path, case: str, suffix: str) -> None:
+    text, *words = CASES[case]
+    deck, output = written(tmp_path, text), tmp_path / f"grown{suffix}"
+    done = subprocess.run(
+        command(str(deck), "-o", str(output), *words), capture_output=True, text=True, cwd=tmp_path
+    )
+    assert done.returncode == 0, done.stderr
+    assert output.read_bytes() == solved(deck, *words, suffix=suffix)
+    assert not drafts(tmp_path)
+
+
+COUNTED = """\
+from adamslite.outputs import csv, netcdf, row_by_row
+whole, rows = row_by_row.GrowingFile.finish, []
+def finish(self, results):
+    before = self.count
+    done = whole(self, results)
+    print(done, results.count - before, results.count)
+    return done
+row_by_row.GrowingFile.finish = finish
+"""
+
+
+@POSIX
+@pytest.mark.parametrize("suffix", FORMATS)
+def test_an_interrupted_run_has_little_left_to_write(tmp_path: Path, suffix: str) -> None:
+    """However many rows there are: those of the block that was not full yet."""
+    deck, output = written(tmp_path, spring(4e5, 4_000_000)), tmp_path / f"x{suffix}"
+    process = subprocess.Popen(
+        [sys.executable, "-c", COUNTED + OFTEN, "solve", str(deck), "-o", str(output), "--quiet"],
+        cwd=tmp_path, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+    )  # fmt: skip
+    until_there_is_a_state(process, Path(f"{output}.part"), more=6)
+    process.send_signal(signal.SIGTERM)
+    told, error = process.communicate(timeout=60)
+    assert process.returncode == 4, error
+    grown, left, count = told.split()
+    assert grown == "True" and int(left) < 1000 < int(count)
+    found = Results.load(output)
+    assert found.outcome is Outcome.INTERRUPTED and found.count == int(count)
+    assert not drafts(tmp_path)
+
+
+@POSIX
+@pytest.mark.parametrize("suffix", FORMATS)
+def test_an_interruption_while_earlier_rows_are_written_again(tmp_path: Path, suffix: str) -> None:
+    """A resumed run begins with them: there is nothing new yet, and what is there stays."""
+    deck, output = written(tmp_path, spring(4e4, 400_000)), tmp_path / f"x{suffix}"
+    part = Path(f"{output}.part")
+    process = subprocess.Popen(
+        command(str(deck), "-o", str(output)), cwd=tmp_path, stderr=subprocess.PIPE
+    )
+    until_there_is_a_state(process, part)
+    process.send_signal(signal.SIGTERM)
+    assert process.communicate(timeout=60)[1] and process.returncode == 4
+    before, whole = output.read_bytes(), solved(deck, suffix=suffix)
+    asked = """\
+import os, signal
+from adamslite.outputs import row_by_row
+row_by_row.GrowingFile._send = lambda self: os.kill(os.getpid(), signal.SIGINT)
+"""
+    again = subprocess.run(
+        [sys.executable, "-c", asked + OFTEN, "solve", "--quiet", "--resume", str(part)],
+        capture_output=True, text=True, cwd=tmp_path, timeout=60,
+    )  # fmt: skip
+    assert again.returncode == 4 and "--resume" in again.stderr, again.stderr
+    assert output.read_bytes() == before and part.exists() and not drafts(tmp_path)
+    last = subprocess.run(
+        command("--resume", str(part)), capture_output=True, text=True, cwd=tmp_path, timeout=60
+    )
+    assert last.returncode == 0 and output.read_bytes() == whole
