@@ -13,9 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from adamslite.analyses.findings.accuracy_notes import accuracy_notes
-from adamslite.analyses.findings.buckling import buckled
-from adamslite.analyses.findings.slack import compressed
+from adamslite.analyses.session.row_notes import seen_in_rows
 from adamslite.analyses.session.session import Session
 from adamslite.analyses.setup.output_times import SETTINGS, dynamics, need_room, plan_of
 from adamslite.analyses.setup.run_options import Budget, budget_of, checked, within_memory
@@ -31,7 +29,6 @@ from adamslite.language.interfaces import key_of
 from adamslite.language.method import without_effect
 from adamslite.model.reduction import MERGED, kept_apart, left_off
 from adamslite.outputs.saved_files import SavedFiles
-from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 from adamslite.results.source import source_of
 
@@ -39,7 +36,7 @@ from adamslite.results.source import source_of
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from adamslite.analyses.dynamics.history import History, Journal
+    from adamslite.analyses.dynamics.history import Journal
     from adamslite.analyses.setup.subject import Subject
     from adamslite.deck.deck import Deck
     from adamslite.deck.redefinition import Command
@@ -58,13 +55,6 @@ FASTER = (
     "what it does may be missed; a shorter HMAX shows it"
 )
 # Columns named that hold entries without a value.
-MOST_TOLD = 5
-#: Numbers of an interrupted run that are looked through: who waits for it to end waits for that.
-MOST_LOOKED_AT = 2**24
-LATER = (
-    "columns without numbers, forces out of their laws, joints that stand still and the accuracy, "
-    "in {rows} rows: what goes on with the run does, when it is done"
-)
 COUNTED = (
     "steps", "rejected", "newton", "jacobians", "factorizations", "events", "restarts",
 )  # fmt: skip
@@ -286,19 +276,6 @@ def _marker(deck: Deck, word: str) -> Key:
     return found.key
 
 
-def _without_value(history: History) -> dict[str, str]:
-    """The first columns with entries that are no numbers, and since when."""
-    since: dict[int, float] = {}
-    for time, values in history.blocks():
-        missing = ~np.isfinite(values)
-        for k in np.flatnonzero(missing.any(axis=0)).tolist():
-            since.setdefault(k, float(time[np.argmax(missing[:, k])]))
-    columns = sorted(since)
-    texts = [f"{history.names[k]} at t = {since[k]:.6g}" for k in columns[:MOST_TOLD]]
-    more = f" and {len(columns) - MOST_TOLD} more" if len(columns) > MOST_TOLD else ""
-    return {"no number": "; ".join(texts) + more} if texts else {}
-
-
 def _results(session: Session, cpu: tuple[float, float], notes: bool, source: RunSource) -> Results:
     system = session.system
     counts = session.counts.values()
@@ -349,20 +326,8 @@ def _meta(session: Session) -> Mapping[str, str]:
         **({"info": "; ".join(session.printed)} if session.printed else {}),
         **_past(session),
         **({"time": f"{hurried}: {FASTER}"} if hurried else {}),
-        **_seen_in_rows(session),
+        **seen_in_rows(session),
     }
-
-
-def _seen_in_rows(session: Session) -> dict[str, str]:
-    """What the rows show.  Of a run that is interrupted not very many are looked through."""
-    history = session.history
-    numbers = history.count * len(history.names) if history.stretches else 0
-    if session.outcome is Outcome.INTERRUPTED and numbers > MOST_LOOKED_AT:
-        return {"not looked for": LATER.format(rows=history.count)}
-    found = {**_beyond(session), **_standing(session), **_without_value(history)}
-    if session.counts.steps and (note := _accuracy_note(session)):
-        found["accuracy"] = note
-    return found
 
 
 def _past(session: Session) -> dict[str, str]:
@@ -370,37 +335,9 @@ def _past(session: Session) -> dict[str, str]:
     return {"delay": f"the past of {note}"} if note else {}
 
 
-def _accuracy_note(session: Session) -> str:
-    settings, history = session.chosen.settings, session.history
-    note = accuracy_notes(session.system, settings, session.counts, history)
-    grown = buckled(session.kernels.model, history)
-    return "; ".join(sentence for sentence in (grown, note) if sentence)
-
-
 def _worst(balances: list[Balance]) -> Balance:
     """Of several analyses."""
     return max(balances, key=lambda b: (not b.closes, b.gap / max(b.explained, TINY)))
-
-
-def _beyond(session: Session) -> dict[str, str]:
-    """Elements that the motion carried beyond what their law is meant for."""
-    texts = [f"{label} {how}" for label, how in session.out_of_law.items()]
-    if session.history.count:
-        slack = compressed(session.deck, session.history)
-        texts += [slack] if slack else []
-    return {"out of its law": "; ".join(texts)} if texts else {}
-
-
-def _standing(session: Session) -> dict[str, str]:
-    """Joints that stood still while others moved."""
-    joints = [each for each in session.deck.statements if each.keyword == "JOINT"]
-    if len(joints) < 2 or not session.counts.steps or not session.history.count:
-        return {}
-    # Most runs of few parts do without.
-    from adamslite.analyses.findings.standstill import standing
-
-    note = standing(session.kernels.model, session.history)
-    return {"not moved": note} if note else {}
 
 
 def _notes(session: Session) -> dict[str, str]:

@@ -38,7 +38,7 @@ NEW = b"MATLAB 7.3 MAT-file"
 LARGEST, BLOCK = 2**31 - 8, 2**20
 TOO_LARGE = (
     "The values take {size:.3g} GB, and a MATLAB file (version 5) holds {most:.3g} GB of a "
-    "variable: --outputs with fewer columns, fewer STEPS, or -o FILE.nc, which MATLAB reads with ncread"
+    "variable: --outputs with fewer columns, fewer STEPS, or -o FILE.nc, which MATLAB reads, too"
 )
 FAULTS = (ValueError, LookupError, OverflowError, struct.error, zlib.error, MemoryError)
 

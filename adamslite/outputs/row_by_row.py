@@ -11,9 +11,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager, suppress
+from contextlib import ExitStack, suppress
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 
@@ -77,6 +77,10 @@ def write(layout: Layout, results: Results, path: str | Path) -> None:
         stream.writelines(pieces(layout, results, is_long(results)))
 
 
+class _GivenUp(Exception):
+    """A file that is not wanted any more."""
+
+
 class GrowingFile:
     """A file of results that is written while their run lasts.
 
@@ -95,7 +99,7 @@ class GrowingFile:
         self.begun: Callable[[tuple[str, ...]], Results] | None = None
         #: Whether rows of an earlier process are being written again.
         self.catching_up = False
-        self._draft: AbstractContextManager[IO[Any]] | None = None
+        self._draft: ExitStack | None = None
         self._forget()
 
     def _forget(self) -> None:
@@ -155,25 +159,24 @@ class GrowingFile:
             self.close()
             return False
         assert self._draft is not None
-        stream, rows = self._stream, self.layout.rows(results)
-        stream.seek(self._ends[-1])
-        for time, values in results.blocks(self.count):
-            stream.writelines(rows(time, values))
-        stream.write(self.layout.tail(results, True))
-        stream.truncate()
-        stream.seek(0)
-        stream.write(head)
         draft, self._draft = self._draft, None
-        draft.__exit__(None, None, None)
+        stream, rows = self._stream, self.layout.rows(results)
+        with draft:
+            stream.seek(self._ends[-1])
+            for time, values in results.blocks(self.count):
+                stream.writelines(rows(time, values))
+            stream.write(self.layout.tail(results, True))
+            stream.truncate()
+            stream.seek(0)
+            stream.write(head)
         return True
 
     def close(self) -> None:
         """Give up what there is of it."""
         draft, self._draft, self.begun = self._draft, None, None
         if draft:
-            fault = KeyboardInterrupt()
-            with suppress(OSError, KeyboardInterrupt):
-                draft.__exit__(KeyboardInterrupt, fault, None)
+            with suppress(OSError, _GivenUp), draft:
+                raise _GivenUp
 
     def _columns(self, names: tuple[str, ...]) -> list[int] | None:
         """The columns that are written; None for all."""
@@ -191,8 +194,8 @@ class GrowingFile:
         assert self.begun is not None
         results = self.begun(self._own_names())
         if self._draft is None:
-            draft = whole_file(self.path, binary=True)
-            self._stream = draft.__enter__()
+            draft = ExitStack()
+            self._stream = draft.enter_context(whole_file(self.path, binary=True))
             self._draft = draft
         if self.count == 0:
             head = self.layout.head(results, True)

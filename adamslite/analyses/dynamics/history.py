@@ -9,7 +9,7 @@ Then the file also holds what a killed session goes on from
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -126,8 +126,12 @@ class History:
     @property
     def in_memory(self) -> int:
         """Numbers that are kept in memory."""
-        return sum(each.count * (len(each.names) + 1)
-                   for each in self.stretches if isinstance(each, Piece))  # fmt: skip
+        return _numbers(each for each in self.stretches if isinstance(each, Piece))
+
+    @property
+    def numbers(self) -> int:
+        """All numbers, wherever they are."""
+        return _numbers(self.stretches)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -173,6 +177,10 @@ class History:
         for times, values in self.parts(max(1, self.count)):
             return Piece(times, self.names, values)
         return Piece(np.zeros(0), self.names, np.zeros((0, len(self.names))))
+
+
+def _numbers(stretches: Iterable[Stretch]) -> int:
+    return sum(each.count * (len(each.names) + 1) for each in stretches)
 
 
 def _end(stretch: Stretch) -> float:

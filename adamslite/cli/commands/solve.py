@@ -15,7 +15,7 @@ import argparse
 import os
 import sys
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
+from contextlib import closing, suppress
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -126,7 +126,8 @@ def _prepared(
     if not args.quiet:
         _tell_warnings(scene)
     journal = _journal(args, scene, output, part)
-    journal.table = _growing(args, output)
+    if output != STDOUT:
+        journal.table = format_of(output).growing(Path(output), args.outputs)
     return scene, output, files, page, journal
 
 
@@ -144,14 +145,13 @@ def _solved(
     from adamslite.scene import run_scene
 
     progress, table = Progress() if args.quiet else TalkingProgress(), journal.table
+    path = None if output == STDOUT else Path(output)
     try:
-        path = None if output == STDOUT else Path(output)
-        folder = path.parent if path else None
-        results = run_scene(scene, _options(args), progress, folder, journal, path)
-        progress.close()
+        with closing(progress):
+            folder = path and path.parent
+            results = run_scene(scene, _options(args), progress, folder, journal, path)
         written = _write(results, output, files, table)
     finally:
-        progress.close()
         if table:
             table.close()
     if output != STDOUT:
@@ -310,18 +310,6 @@ def _write_adams(results: "Results", paths: Sequence[Path]) -> list[Written]:
         except UsageError as fault:  # --outputs has left out what it takes
             sys.stderr.write(f"adamslite: {fault}\n")
     return written
-
-
-def _growing(args: argparse.Namespace, output: str) -> "GrowingFile | None":
-    """The file of the results, where it can be written while the run lasts."""
-    from adamslite.outputs.row_by_row import GrowingFile
-    from adamslite.results.formats import format_of
-
-    path = Path(output)
-    if output == STDOUT or (path.exists() and not path.is_file()):
-        return None
-    layout = format_of(path).layout
-    return GrowingFile(layout, path, args.outputs) if layout else None
 
 
 def _write(
