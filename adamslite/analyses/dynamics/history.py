@@ -86,10 +86,10 @@ class History:
     def extend(self, piece: Piece) -> None:
         """Add further rows of the same analysis."""
         self.stretches.append(piece)
-        if self.part:
-            self.file(self.part)
         if self.table:
             self.table.follow(self)
+        if self.part:
+            self.file(self.part)
 
     def file(self, part: PartFile) -> None:
         """Keep the rows in a file from here on."""
