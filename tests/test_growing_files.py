@@ -11,7 +11,7 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -96,32 +96,44 @@ def test_a_file_that_has_grown(tmp_path: Path, suffix: str, late: str) -> None:
     np.testing.assert_array_equal(read.values, whole.values)
 
 
+@pytest.mark.parametrize("count", [1000, 300])
 @pytest.mark.parametrize("suffix", FORMATS)
-def test_rows_that_are_taken_back(tmp_path: Path, suffix: str) -> None:
-    """A step that fails behind its first outputs, and another method that begins again."""
+def test_rows_that_are_taken_back(tmp_path: Path, suffix: str, count: int) -> None:
+    """A step that fails behind its first outputs, and another method that begins again, which may
+    come to fewer rows.
+    """
     path, whole, other = tmp_path / f"x{suffix}", results(1000), results(1000)
     other.values[:] = -1.0 / 3.0
     history, table = growing(path)
-    history.extend(piece(whole, 0, 200))
+    for first in (0, 100):
+        history.extend(piece(whole, first, first + 100))
     mark = history.mark()
     for first in range(200, 500, 30):
         history.extend(piece(other, first, first + 30))
     history.cut(100)
-    assert table.count <= 400
-    history.extend(piece(other, 400, 900))
+    assert 300 < table.count <= 400
+    for first in range(400, 900, 100):
+        history.extend(piece(other, first, first + 100))
+    assert table.count == 800
     history.return_to(mark)
     assert table.count == 200
-    history.extend(piece(whole, 200, 1000))
+    for first in range(200, count, 100):
+        history.extend(piece(whole, first, first + 100))
+    whole = Results(
+        time=whole.time[:count], names=NAMES, values=whole.values[:count], meta=whole.meta
+    )
     assert table.finish(whole) and same(path, whole)
 
 
 def test_an_equilibrium_in_the_place_of_the_last_row(tmp_path: Path) -> None:
     path, whole = tmp_path / "x.csv", results(1000)
     history, table = growing(path)
-    history.append(piece(whole, 0, 400), static=False, after_rest=False)
-    rest = Piece(whole.time[399:], whole.names, -whole.values[399:])
+    history.append(piece(whole, 0, 401), static=False, after_rest=False)
+    table.follow(history)
+    assert table.count == 401
+    rest = Piece(whole.time[400:], whole.names, -whole.values[400:])
     history.append(rest, static=True, after_rest=True)
-    values = np.concatenate([whole.values[:399], -whole.values[399:]])
+    values = np.concatenate([whole.values[:400], -whole.values[400:]])
     there = Results(time=whole.time, names=NAMES, values=values, meta=whole.meta)
     assert table.finish(there) and same(path, there)
 
@@ -141,8 +153,9 @@ def test_columns_that_a_command_brings(tmp_path: Path, suffix: str) -> None:
     """Rows before it hold no number there; the file begins anew."""
     path, names = tmp_path / f"x{suffix}", (*NAMES, "REQUEST/2.F2")
     history, table = growing(path)
-    history.extend(piece(results(500), 0, 500))
-    history.extend(piece(results(500, names), 0, 500))
+    for found in (results(500), results(500, names)):
+        for first in range(0, 500, 100):
+            history.extend(piece(found, first, first + 100))
     table_of_all = history.whole
     whole = Results(
         time=table_of_all.times, names=names, values=table_of_all.values, meta=results(0).meta
@@ -162,7 +175,8 @@ def test_results_that_are_not_as_they_began(
     """
     path, whole = tmp_path / f"x{suffix}", results(1000, **facts)
     history, table = growing(path)
-    history.extend(piece(whole, 0, 1000))
+    for first in (0, 500):
+        history.extend(piece(whole, first, first + 500))
     if not table.finish(whole):
         assert not drafts(tmp_path)
         whole.save(path)
@@ -173,7 +187,8 @@ def test_more_than_there_is_room_for(tmp_path: Path) -> None:
     """Of NetCDF the head then is longer than what was kept for it."""
     path, whole = tmp_path / "x.nc", results(1000, message="far " * 10_000)
     history, table = growing(path)
-    history.extend(piece(whole, 0, 1000))
+    for first in (0, 500):
+        history.extend(piece(whole, first, first + 500))
     assert not table.finish(whole) and not drafts(tmp_path)
     whole.save(path)
     assert Results.load(path).message == whole.message
@@ -184,28 +199,48 @@ def test_more_than_there_is_room_for(tmp_path: Path) -> None:
 )
 def test_nothing_is_left(tmp_path: Path, end: Callable[[GrowingFile], Any]) -> None:
     history, table = growing(tmp_path / "x.csv")
-    history.extend(piece(results(1000), 0, 1000))
+    for first in (0, 500):
+        history.extend(piece(results(1000), first, first + 500))
     assert drafts(tmp_path)
     end(table)
     assert [*tmp_path.iterdir()] == []
 
 
-def test_a_disk_that_is_full(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("fault", [OSError(28, "No space left on device"), MemoryError()], ids=repr)
+def test_no_room(tmp_path: Path, fault: Exception) -> None:
     """The run goes on; whether there is room is seen again when it has ended."""
+
+    def full(time: np.ndarray, values: np.ndarray) -> Iterator[bytes]:
+        yield b"1,2,3"
+        raise fault
+
     history, table = growing(tmp_path / "x.csv")
+    whole = results(1000)
+    for first in range(0, 600, 100):
+        history.extend(piece(whole, first, first + 100))
+    assert drafts(tmp_path)
+    table.layout = table.layout._replace(rows=lambda results: full)
+    history.extend(piece(whole, 600, 1000))
+    assert not drafts(tmp_path) and history.count == 1000
+    assert not table.finish(whole) and [*tmp_path.iterdir()] == []
 
-    def full(*_: Any) -> Any:
-        raise OSError(28, "No space left on device")
 
+def test_an_interruption_while_rows_are_written(tmp_path: Path) -> None:
+    """Who adds them does so again: they are there once."""
+    history, table = growing(tmp_path / "x.csv")
     whole = results(1000)
     history.extend(piece(whole, 0, 500))
-    with monkeypatch.context() as patch:
-        patch.setattr(row_by_row, "SENT", 0)
-        patch.setattr(os, "posix_fadvise", full, raising=False)
-        history.extend(piece(whole, 500, 900))
-    assert not drafts(tmp_path)
-    history.extend(piece(whole, 900, 1000))
-    assert not table.finish(whole) and [*tmp_path.iterdir()] == []
+    layout = table.layout
+
+    def interrupted(results: Results) -> Any:
+        raise KeyboardInterrupt
+
+    table.layout = layout._replace(rows=interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        history.extend(piece(whole, 500, 1000))
+    table.layout = layout
+    history.extend(piece(whole, 500, 1000))
+    assert table.finish(whole) and same(tmp_path / "x.csv", whole)
 
 
 def test_a_short_table_is_not_begun(tmp_path: Path) -> None:
@@ -220,6 +255,7 @@ CASES = {
     "a spring": (spring(400, 4000), "--error", "1e-6"),
     "two analyses": (rests(90, 3000), "--error", "1e-6"),
     "some columns": (pendulum(20, 3000), "--outputs", "PART/*", "--integrator", "HHT"),
+    "confirmed": (spring(40, 2000), "--error", "1e-6", "--confirm"),
 }
 
 
@@ -245,13 +281,17 @@ def finish(self, results):
     print(done, results.count - before, results.count)
     return done
 row_by_row.GrowingFile.finish = finish
+from adamslite.analyses.session import row_notes
+row_notes.MOST_LOOKED_AT = 1000
 """
 
 
 @POSIX
 @pytest.mark.parametrize("suffix", FORMATS)
 def test_an_interrupted_run_has_little_left_to_write(tmp_path: Path, suffix: str) -> None:
-    """However many rows there are: those of the block that was not full yet."""
+    """However many rows there are: those of the block that was not full yet; what all of them show
+    is not looked for.
+    """
     deck, output = written(tmp_path, spring(4e5, 4_000_000)), tmp_path / f"x{suffix}"
     process = subprocess.Popen(
         [sys.executable, "-c", COUNTED + OFTEN, "solve", str(deck), "-o", str(output), "--quiet"],
@@ -265,6 +305,7 @@ def test_an_interrupted_run_has_little_left_to_write(tmp_path: Path, suffix: str
     assert grown == "True" and int(left) < 1000 < int(count)
     found = Results.load(output)
     assert found.outcome is Outcome.INTERRUPTED and found.count == int(count)
+    assert f"in {count} rows" in found.meta["not looked for"]
     assert not drafts(tmp_path)
 
 

@@ -127,7 +127,7 @@ class GrowingFile:
             return
         try:
             self._follow(rows)
-        except OSError:  # it is written at the end, which says so if there is still no room
+        except (OSError, MemoryError):  # it is written at the end, where a lack of room is reported
             self.close()
 
     def catch_up(self, rows: Rows) -> None:
@@ -216,5 +216,6 @@ class GrowingFile:
         end = self._ends[-1]
         if end - self._sent >= SENT and hasattr(os, "posix_fadvise"):
             self._stream.flush()
-            os.posix_fadvise(self._stream.fileno(), self._sent, 0, os.POSIX_FADV_DONTNEED)
+            with suppress(OSError):  # it is no more than a wish
+                os.posix_fadvise(self._stream.fileno(), self._sent, 0, os.POSIX_FADV_DONTNEED)
             self._sent = end

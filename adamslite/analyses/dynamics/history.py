@@ -85,9 +85,9 @@ class History:
 
     def extend(self, piece: Piece) -> None:
         """Add further rows of the same analysis."""
-        self.stretches.append(piece)
-        if self.table:
+        if self.table:  # before the rows are here: who is interrupted meanwhile adds them again
             self.table.follow(self)
+        self.stretches.append(piece)
         if self.part:
             self.file(self.part)
 
