@@ -1,4 +1,4 @@
-"""The files that a run writes, determined and checked before it starts.
+"""The files that a run writes, determined and checked before it starts, and written.
 
 A name in a deck or command file is a bare file name, and that file lies beside the results. Nothing
 that was read is written, neither by its name nor through a link.
@@ -6,13 +6,18 @@ that was read is written, neither by its name nor through a link.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from adamslite.outputs.whole_files import need_writable, same_file
 from adamslite.results.adams_options import adams_options
+from adamslite.results.formats import format_of
 
 if TYPE_CHECKING:
+    from adamslite.outputs.row_by_row import GrowingFile
+    from adamslite.results.results import Results
     from adamslite.scene import Scene
 
 #: Commands that write or read files.
@@ -67,3 +72,23 @@ def adams_files(scene: Scene, output: str | Path) -> list[Path]:
     wanted = ((".req", options.requests), (".res", options.results))
     paths = [place.with_suffix(suffix) for suffix, given in wanted if given]
     return [path for path in paths if not same_file(path, place)]
+
+
+def growing_files(scene: Scene, output: Path, patterns: Sequence[str]) -> dict[Path, GrowingFile]:
+    """The results, and the files .req and .res beside them, as far as they can be written while
+    the run lasts, with the columns that any of the ``patterns`` means.
+    """
+    found = {}
+    for path in (output, *adams_files(scene, output)):
+        layout = format_of(path).layout
+        if layout and not (path.exists() and not path.is_file()):
+            found[path] = import_module("adamslite.outputs.row_by_row").GrowingFile(
+                layout, path, patterns
+            )
+    return found
+
+
+def save(results: Results, path: Path, growing: Mapping[Path, GrowingFile]) -> None:
+    """Write results to a file, or what is missing in one that has grown."""
+    if path not in growing or not growing[path].finish(results):
+        results.save(path)

@@ -28,7 +28,7 @@ from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 
 NAMES = ("PART/2.x", "PART/2.psi", "REQUEST/1.F2")
-FORMATS = (".csv", ".nc")
+FORMATS, ALL = (".csv", ".nc"), (".csv", ".nc", ".req", ".res")
 POSIX = pytest.mark.skipif(os.name != "posix", reason="a process of Windows gets no signal")
 
 
@@ -57,7 +57,7 @@ def growing(path: Path, patterns: tuple[str, ...] = ()) -> tuple[History, Growin
     assert layout is not None
     history, table = History(), GrowingFile(layout, path, patterns)
     table.begun = lambda names: results(0, names)
-    history.table = table
+    history.growing = [table]
     return history, table
 
 
@@ -210,7 +210,7 @@ def test_nothing_is_left(tmp_path: Path, end: Callable[[GrowingFile], Any]) -> N
 def test_no_room(tmp_path: Path, fault: Exception) -> None:
     """The run goes on; whether there is room is seen again when it has ended."""
 
-    def full(time: np.ndarray, values: np.ndarray) -> Iterator[bytes]:
+    def full(time: np.ndarray, values: np.ndarray, before: Any) -> Iterator[bytes]:
         yield b"1,2,3"
         raise fault
 
@@ -259,7 +259,7 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("suffix", FORMATS)
+@pytest.mark.parametrize("suffix", ALL)
 @pytest.mark.parametrize("case", CASES)
 def test_a_run_writes_the_same_bytes(tmp_path: Path, case: str, suffix: str) -> None:
     text, *words = CASES[case]
@@ -287,12 +287,12 @@ row_notes.MOST_LOOKED_AT = 1000
 
 
 @POSIX
-@pytest.mark.parametrize("suffix", FORMATS)
+@pytest.mark.parametrize("suffix", (*FORMATS, ".res"))
 def test_an_interrupted_run_has_little_left_to_write(tmp_path: Path, suffix: str) -> None:
     """However many rows there are: those of the block that was not full yet; what all of them show
     is not looked for.
     """
-    deck, output = written(tmp_path, spring(4e5, 4_000_000)), tmp_path / f"x{suffix}"
+    deck, output = written(tmp_path, pendulum(4e5, 4_000_000)), tmp_path / f"x{suffix}"
     process = subprocess.Popen(
         [sys.executable, "-c", COUNTED + OFTEN, "solve", str(deck), "-o", str(output), "--quiet"],
         cwd=tmp_path, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE,

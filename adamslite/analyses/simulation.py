@@ -29,6 +29,7 @@ from adamslite.language.interfaces import key_of
 from adamslite.language.method import without_effect
 from adamslite.model.reduction import MERGED, kept_apart, left_off
 from adamslite.outputs.saved_files import SavedFiles
+from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 from adamslite.results.source import source_of
 
@@ -113,14 +114,14 @@ def simulate(
         subject = prepared_for(scene, commands)
         session = Session(subject, progress, flags, without, audit, files, budget, journal)
         kept = _columns_kept(session, wanted)
-        _begin_table(session, journal, source)
+        _begin_files(session, journal, source)
 
         def need_its_room() -> None:
             need_room(session.system, plan, kept, output, journal is not None)
 
         cpu = _carried_out(session, plan, began, need_its_room)
         results = _results_in_memory(session, cpu, notes, source)
-    if confirm:
+    if confirm and results.outcome is not Outcome.INTERRUPTED:
         again = partial(
             simulate, scene, end, steps, commands=commands, progress=progress,
             no_reduction=no_reduction, files=files.to_read, max_steps=max_steps,
@@ -133,19 +134,20 @@ def simulate(
 # Most runs need none of what the following functions import.
 
 
-def _begin_table(session: Session, journal: Journal | None, source: RunSource) -> None:
-    """Have the file of the results written while the session lasts, where one is."""
-    table = journal and journal.table
-    if not journal or not table:
+def _begin_files(session: Session, journal: Journal | None, source: RunSource) -> None:
+    """Have files of the results written while the session lasts, where they can be."""
+    if not journal:
         return
-    journal.table = None  # witnesses of a confirmation have other results
+    session.history.growing = tuple(journal.growing.values())
+    journal.growing = {}  # witnesses have other results
 
     def begun(names: tuple[str, ...]) -> Results:
         none = np.zeros((0, len(names)))
         meta = _known(session)
         return Results(time=np.zeros(0), names=names, values=none, meta=meta, source=source)
 
-    session.history.table, table.begun = table, begun
+    for file in session.history.growing:
+        file.begun = begun
 
 
 def _columns_kept(session: Session, wanted: tuple[str, ...]) -> int:

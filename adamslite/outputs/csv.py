@@ -17,7 +17,6 @@ as fast, in the same bytes.
 import csv
 import io
 import re
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any
@@ -81,8 +80,8 @@ def _comments(results: Results, long: bool, early: bool) -> str:
     return "".join(f"# {key}: {found[key]}\n" for key in here)
 
 
-def _rows(results: Results) -> Callable[[np.ndarray, np.ndarray], Iterator[bytes]]:
-    return lambda time, values: (each.encode() for each in lines(time[:, None], values))
+def _rows(results: Results) -> row_by_row.Writer:
+    return lambda time, values, before: (each.encode() for each in lines(time[:, None], values))
 
 
 LAYOUT = row_by_row.Layout(_head, _rows, _tail)

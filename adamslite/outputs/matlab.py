@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import struct
 import zlib
-from collections.abc import Iterator
 from io import BytesIO
 from pathlib import Path
 from typing import IO, Any
@@ -34,8 +33,8 @@ from adamslite.results.untrusted import need_plausible
 HEAD = b"MATLAB 5.0 MAT-file, by adamslite".ljust(116)
 NEEDED = ("time", "values", "names")
 NEW = b"MATLAB 7.3 MAT-file"
-#: Bytes of a variable that MATLAB takes, and numbers that are written at once.
-LARGEST, BLOCK = 2**31 - 8, 2**20
+#: Bytes of a variable that MATLAB takes.
+LARGEST = 2**31 - 8
 TOO_LARGE = (
     "The values take {size:.3g} GB, and a MATLAB file (version 5) holds {most:.3g} GB of a "
     "variable: --outputs with fewer columns, fewer STEPS, or -o FILE.nc, which MATLAB reads, too"
@@ -73,24 +72,15 @@ class _Room:
             self.stream.write(data)
 
     def fill(self, results: Results) -> None:
-        """Write times and values, column by column of some rows."""
+        """Write times and values, some rows of each column after the other."""
         first, count = 0, results.count
         for time, values in results.blocks() if self.places else ():
-            for rows in _slices(*values.shape):
-                table = np.column_stack([time[rows], values[rows]]).T.copy()
-                starts = (
-                    self.places[0],
-                    *(self.places[1] + 8 * count * k for k in range(table.shape[0] - 1)),
-                )
-                for start, column in zip(starts, table, strict=True):
-                    self.seek(start + 8 * first)
-                    self.stream.write(column.data)
-                first += table.shape[1]
-
-
-def _slices(count: int, columns: int) -> Iterator[slice]:
-    step = max(1, BLOCK // (columns + 1))
-    return (slice(start, start + step) for start in range(0, count, step))
+            starts = [self.places[1] + 8 * count * k for k in range(values.shape[1])]
+            columns = np.ascontiguousarray(np.vstack([time, values.T]))
+            for start, column in zip([self.places[0], *starts], columns, strict=True):
+                self.seek(start + 8 * first)
+                self.stream.write(column.data)
+            first += len(time)
 
 
 def need_room(rows: int, columns: int) -> None:

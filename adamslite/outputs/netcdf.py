@@ -20,7 +20,7 @@ from __future__ import annotations
 import json
 import re
 import struct
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from io import BytesIO
 from math import prod
 from pathlib import Path
@@ -131,14 +131,14 @@ def _with_attributes(results: Results, texts: dict[str, bytes]) -> bytes:
     return memory.getvalue()
 
 
-def _rows(results: Results) -> Callable[[np.ndarray, np.ndarray], Iterator[bytes]]:
+def _rows(results: Results) -> row_by_row.Writer:
     """What rows hold: the time, what moves, single columns."""
     bodies, single = _of_bodies(results)
     groups = [where.ravel() for where in bodies.where.values()]
     columns = np.concatenate([*groups, np.array(single, dtype=int)])
     there = np.flatnonzero(columns >= 0)
 
-    def written(time: np.ndarray, values: np.ndarray) -> Iterator[bytes]:
+    def written(time: np.ndarray, values: np.ndarray, before: row_by_row.Before) -> Iterator[bytes]:
         rows = np.full((len(time), 1 + len(columns)), np.nan, dtype=">f8")
         rows[:, 0] = time
         rows[:, 1 + there] = values[:, columns[there]]

@@ -6,7 +6,7 @@ The text of a number is that of Python (``1e-05``, ``0.1``, ``1e+16``). Where or
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from functools import cache
 from types import ModuleType
 
@@ -34,19 +34,6 @@ def lines(*tables: np.ndarray) -> Iterator[str]:
             yield _by_orjson(fast, block)
         else:
             yield _by_python(block)
-
-
-def blocks_of(columns: Sequence[np.ndarray | None]) -> Iterator[np.ndarray]:
-    """Tables (n, m) of columns beside each other, some rows at a time; zeros for None.
-
-    Who writes from them can be interrupted, and needs no memory for them all.
-    """
-    count = next(len(each) for each in columns if each is not None)
-    step = max(1, BLOCK // len(columns))
-    for start in range(0, count, step):
-        end = min(count, start + step)
-        zeros = np.zeros(end - start)
-        yield np.column_stack([zeros if each is None else each[start:end] for each in columns])
 
 
 def _by_python(block: np.ndarray) -> str:

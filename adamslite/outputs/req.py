@@ -19,21 +19,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from adamslite.errors import FormatError
-from adamslite.outputs.number_text import blocks_of
-from adamslite.outputs.whole_files import whole_file
+from adamslite.outputs import row_by_row
 from adamslite.outputs.xrf import source_of
 from adamslite.results.formats import register_format
 from adamslite.results.printed import Printed
 from adamslite.results.results import Results
 from adamslite.results.run_texts import need_rows, printable
-
-if TYPE_CHECKING:
-    from adamslite.deck.deck import Deck
 
 FORM = "A.R3"
 # A date of its own would make two runs of one deck differ.
@@ -55,12 +51,13 @@ def write(results: Results, path: str | Path) -> None:
         When the deck of the results is not known.
     """
     need_rows(results)
+    row_by_row.write(LAYOUT, results, path)
+
+
+def _requests(results: Results) -> list[Any]:
+    """Those of the deck that the results have all of."""
     deck, _ = source_of(results)
-    requests = [each for each in deck.of("REQUEST") if _is_whole(each, results)]
-    with whole_file(path) as stream:
-        stream.write(_head(results, deck, len(requests)))
-        stream.writelines(_entries(requests))
-        stream.writelines(_steps(results, requests))
+    return [each for each in deck.of("REQUEST") if _is_whole(each, results)]
 
 
 def _is_whole(request: Any, results: Results) -> bool:
@@ -68,15 +65,17 @@ def _is_whole(request: Any, results: Results) -> bool:
     return all(f"{request.label}.{name}" in results for name in request.result_names)
 
 
-def _head(results: Results, deck: Deck, count: int) -> str:
-    symbols = results.unit_symbols
+def _head(results: Results, long: bool) -> bytes:
+    deck, _ = source_of(results)
+    requests, symbols = _requests(results), results.unit_symbols
     kinds = ("length", "mass", "time", "force")
     code = "".join(f"{symbols.get(kind, '').upper():_<2.2}" for kind in kinds)
-    return (
+    head = (
         f" {FORM}    {DATE}               0         0  3D\n"
         f"{printable(deck.title):80.80}\n"
-        f"{count:5d}     {code}RACA {deck.ucf:.15E}\n"
+        f"{len(requests):5d}     {code}RACA {deck.ucf:.15E}\n"
     )
+    return "".join([head, *_entries(requests)]).encode()
 
 
 def _entries(requests: list[Any]) -> Iterator[str]:
@@ -91,18 +90,28 @@ def _entries(requests: list[Any]) -> Iterator[str]:
         yield "".join(f"{each:8d}" for each in numbers) + "\n"
 
 
-def _steps(results: Results, requests: list[Any]) -> Iterator[str]:
-    columns = [
-        results[f"{each.label}.{name}"] if name in each.result_names else None
-        for each in requests
-        for name in WRITTEN
-    ]
+def _rows(results: Results) -> row_by_row.Writer:
+    column = {name.casefold(): k for k, name in enumerate(results.names)}
+    names = [f"{each.label}.{name}".casefold() for each in _requests(results) for name in WRITTEN]
+    there = [k for k, name in enumerate(names) if name in column]
+    taken = [column[names[k]] for k in there]
     line = "{:14.5E}" * len(WRITTEN) + "\n"
-    for block in blocks_of([results.time, *columns]):
-        for time, *row in block.tolist():
-            yield f"{time:14.5E}\n"
-            for k in range(0, len(row), len(WRITTEN)):
-                yield line.format(*row[k : k + len(WRITTEN)])
+    form = "{:14.5E}\n" + line * (len(names) // len(WRITTEN))
+
+    def written(time: np.ndarray, values: np.ndarray, before: row_by_row.Before) -> Iterator[bytes]:
+        table = np.zeros((len(time), 1 + len(names)))
+        table[:, 0] = time
+        table[:, [1 + k for k in there]] = values[:, taken]
+        return (form.format(*row).encode() for row in table.tolist())
+
+    return written
+
+
+def _tail(results: Results, long: bool) -> bytes:
+    return b""
+
+
+LAYOUT = row_by_row.Layout(_head, _rows, _tail)
 
 
 def read(path: str | Path) -> Results:
@@ -179,4 +188,5 @@ register_format(
     write,
     read,
     exact=False,
+    layout=LAYOUT,
 )

@@ -13,10 +13,11 @@ import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
+from adamslite.errors import UsageError
 from adamslite.outputs.whole_files import whole_file
 
 if TYPE_CHECKING:
@@ -30,15 +31,21 @@ SLICE, BLOCK = 2**16, 2**20
 SENT = 2**23
 
 
+#: Of the rows before: the time of the first, and whether any has another one; None without any.
+Before: TypeAlias = tuple[float, bool] | None
+#: Writes times (n,) and values (n, nc).
+Writer: TypeAlias = Callable[[np.ndarray, np.ndarray, Before], Iterator[bytes]]
+
+
 class Layout(NamedTuple):
     """A format as functions.
 
     ``head(results, long)`` is what stands before the rows, ``tail(results, long)`` what stands
-    behind them; ``rows(results)`` a function that writes times (n,) and values (n, nc).
+    behind them; ``rows(results)`` writes them.
     """
 
     head: Callable[[Results, bool], bytes]
-    rows: Callable[[Results], Callable[[np.ndarray, np.ndarray], Iterator[bytes]]]
+    rows: Callable[[Results], Writer]
     tail: Callable[[Results, bool], bytes]
 
 
@@ -64,11 +71,23 @@ def is_long(results: Results) -> bool:
 
 def pieces(layout: Layout, results: Results, long: bool) -> Iterator[bytes]:
     """All that a file of results holds, in its order."""
-    rows = layout.rows(results)
     yield layout.head(results, long)
-    for time, values in results.blocks():
-        yield from rows(time, values)
+    yield from _rows(layout.rows(results), results.blocks(), None)
     yield layout.tail(results, long)
+
+
+def _rows(
+    write: Writer, blocks: Iterator[tuple[np.ndarray, np.ndarray]], before: Before
+) -> Iterator[bytes]:
+    for time, values in blocks:
+        yield from write(time, values, before)
+        before = _behind(time, before)
+
+
+def _behind(time: np.ndarray, before: Before) -> Before:
+    """What is before the next row."""
+    start, moved = before or (float(time[0]), False)
+    return start, moved or bool((time != start).any())
 
 
 def write(layout: Layout, results: Results, path: str | Path) -> None:
@@ -105,8 +124,9 @@ class GrowingFile:
     def _forget(self) -> None:
         self._names: tuple[str, ...] | None = None
         self._chosen: list[int] | None = None
-        # Rows that are written, and the bytes to their ends.
+        # Rows that are written, the bytes to their ends, and what is before the next row.
         self._rows, self._ends = [0], [0]
+        self._before: list[Before] = [None]
         self._sent = 0
 
     @property
@@ -127,7 +147,7 @@ class GrowingFile:
             return
         try:
             self._follow(rows)
-        except (OSError, MemoryError):  # it is written at the end, where a lack of room is reported
+        except (OSError, MemoryError, UsageError):  # all will be written, or reported, at the end
             self.close()
 
     def catch_up(self, rows: Rows) -> None:
@@ -139,8 +159,8 @@ class GrowingFile:
     def back_to(self, count: int) -> None:
         """Rows from this one on have been taken back."""
         while self._rows[-1] > count:
-            self._rows.pop()
-            self._ends.pop()
+            for each in (self._rows, self._ends, self._before):
+                each.pop()
 
     def finish(self, results: Results) -> bool:
         """Write the rest; False when the file has to be written as a whole, as it has not grown, or
@@ -153,18 +173,16 @@ class GrowingFile:
         """
         if self.catching_up:
             raise KeyboardInterrupt
-        head, long = self.layout.head(results, True), is_long(results)
-        grown = self._draft is not None and long and results.names == self._own_names()
-        if not grown or len(head) != self._ends[0] or results.count < self.count:
+        own = self._own_names(), self._ends[0]
+        head = self.layout.head(results, True) if self._draft and is_long(results) else b""
+        if not self._draft or (results.names, len(head)) != own or results.count < self.count:
             self.close()
             return False
-        assert self._draft is not None
         draft, self._draft = self._draft, None
-        stream, rows = self._stream, self.layout.rows(results)
+        stream, rest = self._stream, results.blocks(self.count)
         with draft:
             stream.seek(self._ends[-1])
-            for time, values in results.blocks(self.count):
-                stream.writelines(rows(time, values))
+            stream.writelines(_rows(self.layout.rows(results), rest, self._before[-1]))
             stream.write(self.layout.tail(results, True))
             stream.truncate()
             stream.seek(0)
@@ -206,9 +224,10 @@ class GrowingFile:
         write = self.layout.rows(results)
         for time, values in rows.parts(max(1, BLOCK // max(1, len(rows.names))), self.count):
             own = values if self._chosen is None else values[:, self._chosen]
-            self._stream.writelines(write(time, own))
+            self._stream.writelines(write(time, own, self._before[-1]))
             self._rows.append(self.count + len(time))
             self._ends.append(self._stream.tell())
+            self._before.append(_behind(time, self._before[-1]))
             self._send()
 
     def _send(self) -> None:

@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -26,6 +27,7 @@ import numpy as np
 import adamslite
 from adamslite.errors import UsageError
 from adamslite.language.interfaces import key_of
+from adamslite.outputs import row_by_row
 from adamslite.outputs.adams.xrf_layout import (
     ALL_DIGITS,
     COMPONENTS_LEFT_OUT,
@@ -38,8 +40,7 @@ from adamslite.outputs.adams.xrf_layout import (
     UNITS,
     packed,
 )
-from adamslite.outputs.number_text import blocks_of, lines
-from adamslite.outputs.whole_files import whole_file
+from adamslite.outputs.number_text import lines
 from adamslite.results.formats import register_format
 from adamslite.results.run_texts import attributes, need_rows, printable
 
@@ -51,7 +52,14 @@ if TYPE_CHECKING:
     from adamslite.results.results import Results
 
 
+#: How the steps of the first time begin, and those of the others behind them.
+INITIAL = b'<Data name="initialConditions_001" id="1">\n'
+DYNAMIC = b'</Data>\n<Data name="dynamic_001" id="2">\n'
 ENTITIES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"})
+
+
+class _Empty(UsageError):
+    """There is nothing to be written."""
 
 
 class Entity(NamedTuple):
@@ -72,24 +80,11 @@ def write(results: Results, path: str | Path) -> None:
     UsageError
         When the deck of the results is not known, or columns are missing that parts take.
     """
-    from adamslite.results.adams_options import adams_options
-    from adamslite.results.adams_terms import to_adams
-
     need_rows(results)
-    deck, commands = source_of(results)
-    options = adams_options(deck, commands)
-    groups, left_out = to_adams(results, deck)
-    entities = list(_entities(results, groups, deck, options))
-    remarks = [options.comment] if options.comment else []
-    if left_out:
-        listed = ", ".join(left_out)
-        if not entities:
-            raise UsageError(
-                f"{path} would be empty: {listed} need more columns; write all of a statement"
-            )
-        remarks.append(f"left out, as the results are limited to a few columns: {listed}")
-    with whole_file(path) as stream:
-        stream.writelines(_document(results, deck, entities, remarks, options.decimals))
+    try:
+        row_by_row.write(LAYOUT, results, path)
+    except _Empty as fault:
+        raise UsageError(f"{path} {fault}") from None
 
 
 def read(path: str | Path) -> Results:
@@ -113,6 +108,26 @@ def source_of(results: Results) -> tuple[Deck, Commands]:
             ".nc, .mat or .parquet"
         )
     return results.source.read()
+
+
+class _Terms:
+    """Results of some columns in the terms of ADAMS."""
+
+    def __init__(self, results: Results) -> None:
+        from adamslite.model.model import assemble
+        from adamslite.results.adams_options import adams_options
+
+        self.results = results
+        self.deck, commands = source_of(results)
+        self.options, self.model = adams_options(self.deck, commands), assemble(self.deck)
+
+    def of(self, time: np.ndarray, values: np.ndarray) -> tuple[list[Entity], list[str]]:
+        """The entities of some rows, and the statements that are left out for want of columns."""
+        from adamslite.results.adams_terms import to_adams
+
+        here = replace(self.results, time=time, values=np.asfortranarray(values))
+        groups, left_out = to_adams(here, self.model)
+        return list(_entities(here, groups, self.deck, self.options)), left_out
 
 
 # ---- entities --------------------------------------------------------------------------------
@@ -198,12 +213,20 @@ def _unit_words(results: Results) -> dict[str, str]:
 # ---- the document ------------------------------------------------------------------------------
 
 
-def _document(
-    results: Results,
-    deck: Deck,
-    entities: Sequence[Entity],
-    remarks: Iterable[str],
-    decimals: int,
+def _head(results: Results, long: bool) -> bytes:
+    terms = _Terms(results)
+    entities, left_out = terms.of(np.zeros(0), np.zeros((0, len(results.names))))
+    remarks = [terms.options.comment] if terms.options.comment else []
+    if left_out:
+        listed = ", ".join(left_out)
+        if not entities:
+            raise _Empty(f"would be empty: {listed} need more columns; write all of a statement")
+        remarks.append(f"left out, as the results are limited to a few columns: {listed}")
+    return "".join(_opening(results, terms.deck, entities, remarks)).encode()
+
+
+def _opening(
+    results: Results, deck: Deck, entities: Sequence[Entity], remarks: Iterable[str]
 ) -> Iterator[str]:
     words = _unit_words(results)
     title = quoted(deck.title)
@@ -238,12 +261,14 @@ time="{words.get("time", "")}" />
             number += 1
         yield "</Entity>\n"
     yield "</StepMap>\n"
-    table = [results.time, *(values for each in entities for *_, values in each.components)]
-    yield from _data(table, decimals)
+
+
+def _tail(results: Results, long: bool) -> bytes:
     ended = "Successful" if results.outcome.is_requested else "Failed"
-    yield f'<TerminationStatus runTermObject="" runStatus="{ended}" />\n</Analysis>\n</Results>\n'
     texts = {**attributes(results), "channels": json.dumps(results.names)}
-    yield f"<!-- {packed(texts)} -->\n"
+    data = "</Data>\n" if results.count else ""
+    status = f'<TerminationStatus runTermObject="" runStatus="{ended}" />'
+    return f"{data}{status}\n</Analysis>\n</Results>\n<!-- {packed(texts)} -->\n".encode()
 
 
 def _heading(each: Entity) -> str:
@@ -266,19 +291,36 @@ def _component(word: str, unit: str, number: int) -> str:
     return f'<Component name={quoted(word)}{shown} id="{number}" />'
 
 
-def _data(table: Sequence[np.ndarray], decimals: int) -> Iterator[str]:
-    """The steps of times and columns (nt,): those of the first time are the initial conditions."""
-    times = table[0]
-    first = int((times == times[:1]).sum())
-    pieces = (("initialConditions", slice(first)), ("dynamic", slice(first, None)))
-    for number, (kind, piece) in enumerate(pieces, start=1):
-        if len(times[piece]):
-            yield f'<Data name="{kind}_001" id="{number}">\n'
-            for block in blocks_of([column[piece] for column in table]):
-                for text in lines(rounded(block, decimals)):
-                    for line in text.splitlines():
-                        yield f'<Step type="{kind}">\n{_broken(line.split(","))}</Step>\n'
-            yield "</Data>\n"
+def _rows(results: Results) -> row_by_row.Writer:
+    """The steps: those of the first time are the initial conditions."""
+    terms = _Terms(results)
+
+    def written(time: np.ndarray, values: np.ndarray, before: row_by_row.Before) -> Iterator[bytes]:
+        entities, _ = terms.of(time, values)
+        columns = (each for entity in entities for *_, each in entity.components)
+        table = rounded(np.column_stack([time, *columns]), terms.options.decimals)
+        start, moved = before or (float(time[0]), False)
+        at_first = 0 if moved else _count_of(start, time)
+        if before is None:
+            yield INITIAL
+        yield from _steps("initialConditions", table[:at_first])
+        if len(time) > at_first and not moved:
+            yield DYNAMIC
+        yield from _steps("dynamic", table[at_first:])
+
+    return written
+
+
+def _count_of(start: float, time: np.ndarray) -> int:
+    """How many of the first times are the same."""
+    other = time != start
+    return int(np.argmax(other)) if other.any() else len(time)
+
+
+def _steps(kind: str, table: np.ndarray) -> Iterator[bytes]:
+    for text in lines(table):
+        steps = (_broken(line.split(",")) for line in text.splitlines())
+        yield "".join(f'<Step type="{kind}">\n{each}</Step>\n' for each in steps).encode()
 
 
 def _broken(cells: list[str]) -> str:
@@ -298,10 +340,12 @@ def rounded(values: np.ndarray, decimals: int) -> np.ndarray:
     return found
 
 
+LAYOUT = row_by_row.Layout(_head, _rows, _tail)
 register_format(
     ".res",
     "results file of ADAMS in XML: parts by their origin and axes, forces, requests",
     write,
     read,
     exact=False,
+    layout=LAYOUT,
 )

@@ -44,6 +44,7 @@ from adamslite.results.part_frames import (
 if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
     from adamslite.language.interfaces import Key
+    from adamslite.model.model import Model
     from adamslite.results.part_frames import MarkerInPart
     from adamslite.results.results import Results
 
@@ -79,16 +80,13 @@ class Directions:
     Parameters
     ----------
     groups : Groups
-    deck : Deck
+    model : Model
 
     Its methods raise KeyError where the groups lack a component.
     """
 
-    def __init__(self, groups: Groups, deck: Deck) -> None:
-        from adamslite.model.model import assemble
-
-        self.groups, self.deck = groups, deck
-        self.model = assemble(deck)
+    def __init__(self, groups: Groups, model: Model) -> None:
+        self.groups, self.model = groups, model
 
     def of(self, force: Any) -> tuple[np.ndarray, int]:
         """The direction (nt, 3) of an SFORCE or SPRINGDAMPER on I, and where its components begin:
@@ -118,17 +116,17 @@ class Directions:
         return centre + attitude @ place.p, attitude @ place.axes
 
 
-def to_adams(results: Results, deck: Deck) -> tuple[Groups, list[str]]:
+def to_adams(results: Results, model: Model) -> tuple[Groups, list[str]]:
     """Groups with parts by their origin (``bcs_x``) and single-component forces as vectors; and the
     statements that are left out, as the results lack columns by which these are computed.
     """
     groups = grouped(results)
-    markers = markers_in_parts(deck)
-    directions = Directions(groups, deck)
+    markers = markers_in_parts(model)
+    directions = Directions(groups, model)
     found: Groups = {}
     left_out = []
     for label, columns in groups.items():
-        force = _directed(deck, label)
+        force = _directed(model.deck, label)
         try:
             if label in markers:
                 found[label] = _with_origin(label, columns, markers[label])
@@ -170,15 +168,18 @@ def from_adams(results: Results, deck: Deck) -> Results:
     A force whose direction is not known, as its markers are on parts that the results lack, stays
     a vector.
     """
+    from adamslite.model.model import assemble
+
+    model = assemble(deck)
     groups = {_own_label(label, deck): each for label, each in grouped(results).items()}
-    for label, marker in markers_in_parts(deck).items():
+    for label, marker in markers_in_parts(model).items():
         if label in groups:
             groups[label] = _with_centre(label, groups[label], marker)
     directions: Directions | None = None
     for label, columns in groups.items():
         force = _directed(deck, label)
         if force is not None and all(name in columns for name in VECTOR):
-            directions = directions or Directions(groups, deck)
+            directions = directions or Directions(groups, model)
             groups[label] = _along(columns, force, directions)
         elif label.startswith("REQUEST/"):
             groups[label] = _by_number(columns, deck, label)

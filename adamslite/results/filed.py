@@ -9,9 +9,6 @@ import numpy as np
 
 from adamslite.results.results import Results
 
-# Numbers of a block.
-BLOCK = 2**20
-
 
 class Rows(Protocol):
     """A table that is read some rows at a time."""
@@ -73,10 +70,6 @@ class FiledResults(Results):
         """Times and values of so many rows after the other, from one of them on."""
         for time, values in self._rows.parts(size, first):
             yield time, values if self._columns is None else values[:, self._columns]
-
-    def blocks(self, first: int = 0) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-        """Times (n,) and values (n, nc) from a row on, some rows at a time."""
-        return self.parts(max(1, BLOCK // max(1, len(self._rows.names))), first)
 
     def limited(self, columns: list[int]) -> Results:
         """The results with some of the columns alone, which stay in the file."""

@@ -12,7 +12,7 @@ registered.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
@@ -52,16 +52,6 @@ class Format:
         """Raise UsageError where a library is missing, before a run rather than after it."""
         if self.library is not None:
             self.library()
-
-    def growing(self, path: Path, patterns: Sequence[str]) -> Any:
-        """A file that is written while its run lasts, of columns that any of the ``patterns``
-        means; None where the format, or what `path` is, does not allow that.
-        """
-        if self.layout is None or (path.exists() and not path.is_file()):
-            return None
-        return import_module("adamslite.outputs.row_by_row").GrowingFile(
-            self.layout, path, patterns
-        )
 
 
 _FORMATS: dict[str, Format] = {}

@@ -20,7 +20,7 @@ import numpy as np
 from adamslite.model.attitude_angles import angles_313, rotations_313
 
 if TYPE_CHECKING:
-    from adamslite.deck.deck import Deck
+    from adamslite.model.model import Model
 
 PLACE, ANGLES = ("x", "y", "z"), ("psi", "theta", "phi")
 SPEED, ACCELERATION = ("vx", "vy", "vz"), ("ax", "ay", "az")
@@ -50,11 +50,8 @@ class MarkerInPart(NamedTuple):
         return not np.array_equal(self.axes, np.eye(3))
 
 
-def markers_in_parts(deck: Deck) -> dict[str, MarkerInPart]:
+def markers_in_parts(model: Model) -> dict[str, MarkerInPart]:
     """The centre of mass of every moving body, by its label."""
-    from adamslite.model.model import assemble
-
-    model = assemble(deck)
     found = {}
     for body in model.bodies:
         offset, axes = model.marker_in_body(body.statement.cm)

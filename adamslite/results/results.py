@@ -30,6 +30,10 @@ if TYPE_CHECKING:
     from adamslite.results.source import RunSource
 
 
+#: Numbers of a block.
+BLOCK = 2**20
+
+
 class UnknownChannel(KeyError):
     """A name that no column of the results has."""
 
@@ -139,10 +143,14 @@ class Results:
         return unit_symbols(self.meta.get("units", ""))
 
     def blocks(self, first: int = 0) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-        """Times (n,) and values (n, nc) of the rows from one on, some at a time where they are in a
-        file.
-        """
-        yield self.time[first:], self.values[first:]
+        """Times (n,) and values (n, nc) of the rows from one on, some at a time."""
+        return self.parts(max(1, BLOCK // max(1, len(self.names))), first)
+
+    def parts(self, size: int, first: int = 0) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """The same, so many rows at a time."""
+        for start in range(first, self.count, size):
+            end = start + size
+            yield self.time[start:end], self.values[start:end]
 
     def limited(self, columns: list[int]) -> Results:
         """The results with some of the columns alone."""

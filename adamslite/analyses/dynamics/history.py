@@ -64,8 +64,8 @@ class History:
     def __init__(self) -> None:
         self.stretches: list[Stretch] = []
         self.part: PartFile | None = None
-        #: The file of the results, where that is written while the run lasts.
-        self.table: GrowingFile | None = None
+        #: Files of results that are written while the run lasts.
+        self.growing: Sequence[GrowingFile] = ()
 
     def append(self, piece: Piece, static: bool, after_rest: bool) -> None:
         """Add what an analysis wrote; a state both ends and begins two analyses only once.
@@ -85,8 +85,8 @@ class History:
 
     def extend(self, piece: Piece) -> None:
         """Add further rows of the same analysis."""
-        if self.table:  # before the rows are here: who is interrupted meanwhile adds them again
-            self.table.follow(self)
+        for file in self.growing:  # first: who is interrupted meanwhile adds the rows again
+            file.follow(self)
         self.stretches.append(piece)
         if self.part:
             self.file(self.part)
@@ -120,8 +120,8 @@ class History:
 
     def _taken_back(self) -> None:
         """Rows may have been taken back."""
-        if self.table:
-            self.table.back_to(self.count)
+        for file in self.growing:
+            file.back_to(self.count)
 
     @property
     def in_memory(self) -> int:
@@ -218,8 +218,8 @@ class Journal:
 
     #: Why a session cannot be resumed, of which rows alone are kept.
     unkept = ""
-    #: The file of the results of its first session, where that is written while it lasts.
-    table: GrowingFile | None = None
+    #: Files of the results of its first session that are written while it lasts, by their paths.
+    growing: Mapping[Path, GrowingFile] = {}  # noqa: RUF012 - it is not changed
 
     def __init__(
         self, path: Path, facts: Callable[[], Mapping[str, Any]], found: PartFile | None = None
@@ -269,8 +269,8 @@ class Journal:
         if found is None:
             return None
         history.part, (code, history.stretches) = self.part, found
-        if history.table:
-            history.table.catch_up(history)
+        for file in history.growing:
+            file.catch_up(history)
         return code
 
     def close(self, keep: bool) -> None:

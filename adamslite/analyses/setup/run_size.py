@@ -4,8 +4,8 @@ With n rows, c columns and w numbers in a record (workspace and outputs), a run 
 
     8 n (w + 2 c + 5)     byte: the record, its columns, what is found of them; times
 
-(c for 2 c where the columns are a part of the record, those of point masses alone), and formats
-that are put together in memory, all but tables, 8 n c more.  A file takes 8 n (c + 1) byte at
+(c for 2 c where the columns are a part of the record, those of point masses alone), and Parquet,
+which is put together in memory, 8 n c more.  A file takes 8 n (c + 1) byte at
 least, and as much again while rows are kept in a file; then none of them is in memory but times.
 Numbers that use all their digits take 19 as text, those that are zero 4.
 """
@@ -20,8 +20,8 @@ from adamslite.machine import free_disk, free_memory
 from adamslite.results.formats import format_of
 
 NUMBER, OF_TIME = 8, 5
-#: Formats that are written row by row, and those that are where rows are kept in a file.
-BY_ROWS, FROM_A_FILE = (".csv", ""), (".csv", "", ".nc", ".mat")
+#: The format that is put together in memory.
+IN_MEMORY = ".parquet"
 GIGA = 1e9
 TOO_LARGE = (
     "The results would have {rows} rows of {columns} columns, which take {need:.3g} GB of {what}, "
@@ -64,7 +64,7 @@ def require_room(rows: Rows, kept: int, file: Path | None) -> None:
     """
     if file is not None and (fits := format_of(file).need_room):
         fits(rows.number, kept)
-    by_rows = file is None or file.suffix.lower() in (FROM_A_FILE if rows.filed else BY_ROWS)
+    by_rows = file is None or file.suffix.lower() != IN_MEMORY
     own = 0 if rows.filed else rows.record + rows.copies * rows.columns
     whole = 0 if by_rows else (3 if rows.filed else 1) * rows.columns
     memory = NUMBER * rows.number * (own + whole + OF_TIME)

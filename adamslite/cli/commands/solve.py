@@ -108,7 +108,7 @@ def _prepared(
 ) -> "tuple[Scene, str, Sequence[Path], Path | None, Journal]":
     """What is solved, the files that will be written, the page, where the run is kept."""
     from adamslite.errors import UsageError
-    from adamslite.result_files import plan
+    from adamslite.result_files import growing_files, plan
     from adamslite.results.formats import format_of
     from adamslite.scene import load_scene
 
@@ -127,7 +127,7 @@ def _prepared(
         _tell_warnings(scene)
     journal = _journal(args, scene, output, part)
     if output != STDOUT:
-        journal.table = format_of(output).growing(Path(output), args.outputs)
+        journal.growing = growing_files(scene, Path(output), args.outputs)
     return scene, output, files, page, journal
 
 
@@ -144,18 +144,19 @@ def _solved(
     from adamslite.result_files import adams_files
     from adamslite.scene import run_scene
 
-    progress, table = Progress() if args.quiet else TalkingProgress(), journal.table
+    progress, growing = Progress() if args.quiet else TalkingProgress(), journal.growing
     path = None if output == STDOUT else Path(output)
     try:
         with closing(progress):
-            folder = path and path.parent
-            results = run_scene(scene, _options(args), progress, folder, journal, path)
-        written = _write(results, output, files, table)
+            folder, chosen = path and path.parent, {"outputs": args.outputs} if args.outputs else {}
+            options = {**run_options(args), **chosen}
+            results = run_scene(scene, options, progress, folder, journal, path)
+        written = _write(results, output, files, growing)
+        if output != STDOUT:
+            written += _write_adams(results, adams_files(scene, output), growing)
     finally:
-        if table:
-            table.close()
-    if output != STDOUT:
-        written += _write_adams(results, adams_files(scene, output))
+        for each in growing.values():
+            each.close()
     if page:
         _write_page(scene, results, page)
         written.insert(0, (PAGE, page))
@@ -293,19 +294,17 @@ def _write_page(scene: "Scene", results: "Results", path: Path) -> None:
     write_page(page(results, at_start(scene.deck, scene.commands)), path)
 
 
-def _options(args: argparse.Namespace) -> dict[str, Any]:
-    """Keyword arguments of `simulate`."""
-    return {**run_options(args), **({"outputs": args.outputs} if args.outputs else {})}
-
-
-def _write_adams(results: "Results", paths: Sequence[Path]) -> list[Written]:
+def _write_adams(
+    results: "Results", paths: Sequence[Path], growing: "Mapping[Path, GrowingFile]"
+) -> list[Written]:
     """The files .req and .res that the deck requests."""
     from adamslite.errors import UsageError
+    from adamslite.result_files import save
 
     written = []
     for path in paths:
         try:
-            results.save(path)
+            save(results, path, growing)
             written.append((f"{path.suffix.removeprefix('.')} of ADAMS", path))
         except UsageError as fault:  # --outputs has left out what it takes
             sys.stderr.write(f"adamslite: {fault}\n")
@@ -313,16 +312,17 @@ def _write_adams(results: "Results", paths: Sequence[Path]) -> list[Written]:
 
 
 def _write(
-    results: "Results", output: str, files: Sequence[Path], table: "GrowingFile | None"
+    results: "Results", output: str, files: Sequence[Path], growing: "Mapping[Path, GrowingFile]"
 ) -> list[Written]:
     """Write the time histories, and the files of LINEAR commands, whose names are returned."""
+    from adamslite.result_files import save
+
     if output == STDOUT:
         from adamslite.outputs.csv import write_to
 
         write_to(results, sys.stdout)
         return []
-    if not (table and table.finish(results)):
-        results.save(output)
+    save(results, Path(output), growing)
     if not results.linearizations:
         return []
     from adamslite.outputs.modes import save_command
