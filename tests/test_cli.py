@@ -260,7 +260,7 @@ def test_the_list_of_commands_has_the_first_lines_of_their_modules() -> None:
     for name, parser in command_parsers().items():
         assert (parser.description or "").partition("\n")[0] == COMMANDS[name]
     there = {module.name for module in iter_modules(commands.__path__)}
-    assert there - {"codes", "results_given", "unfinished"} == {*COMMANDS}
+    assert there - {"codes", "results_given", "run_journal", "unfinished"} == {*COMMANDS}
 
 
 def test_a_command_imports_no_other_command() -> None:

@@ -302,11 +302,30 @@ def test_an_interrupted_run_has_little_left_to_write(tmp_path: Path, suffix: str
     told, error = process.communicate(timeout=60)
     assert process.returncode == 4, error
     grown, left, count = told.split()
-    assert grown == "True" and int(left) < 1000 < int(count)
     found = Results.load(output)
+    blocks = int(left) * len(found.names) / 3000
+    assert grown == "True" and blocks < 4 and int(left) < int(count)
     assert found.outcome is Outcome.INTERRUPTED and found.count == int(count)
     assert f"in {count} rows" in found.meta["not looked for"]
     assert not drafts(tmp_path)
+
+
+@POSIX
+def test_an_interrupted_run_is_neither_confirmed_nor_drawn(tmp_path: Path) -> None:
+    """Witnesses would run to their ends; of a page all rows would be read."""
+    deck, output = written(tmp_path, spring(4e5, 4_000_000)), tmp_path / "x.csv"
+    few = "from adamslite.cli.commands import solve\nsolve.MOST_DRAWN = 1000\n"
+    words = ["solve", str(deck), "-o", str(output), "--quiet", "--confirm", "--page"]
+    process = subprocess.Popen(
+        [sys.executable, "-c", few + OFTEN, *words],
+        cwd=tmp_path, text=True, stderr=subprocess.PIPE,
+    )  # fmt: skip
+    until_there_is_a_state(process, Path(f"{output}.part"), more=6)
+    process.send_signal(signal.SIGTERM)
+    error = process.communicate(timeout=60)[1]
+    assert process.returncode == 4 and "CONFIRMED" not in error
+    assert f"{tmp_path / 'x.html'} is not written: the run was interrupted" in error
+    assert sorted(each.name for each in tmp_path.iterdir()) == ["deck.adm", "x.csv", "x.csv.part"]
 
 
 @POSIX

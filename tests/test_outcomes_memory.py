@@ -122,6 +122,19 @@ def test_rows_that_are_kept_in_a_file_need_no_memory(
     )
 
 
+@pytest.mark.parametrize(("flag", "code"), [("--page", 2), ("--confirm", 2), ("--quiet", 4)])
+def test_pages_and_confirmations_need_all_rows_in_memory(
+    flag: str, code: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any
+) -> None:
+    """2e7 rows of 9 columns with 3 GB free: twice 1.44 GB and 0.8 GB for times, without 0.8 GB."""
+    deck = tmp_path / "point.adm"
+    deck.write_text(POINT)
+    monkeypatch.setattr(machine, "_of_machine", lambda: 3_000_000_000)
+    flags = ["--end", "1", "--steps", "20000000", "--max-steps", "9", flag]
+    assert main(["solve", str(deck), *flags, "-o", str(tmp_path / "out.csv")]) == code
+    assert ("or without --page and --confirm" in capsys.readouterr().err) == (code == 2)
+
+
 def test_more_rows_than_a_matlab_file_holds_are_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any
 ) -> None:

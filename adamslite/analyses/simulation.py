@@ -56,6 +56,8 @@ FASTER = (
     "what it does may be missed; a shorter HMAX shows it"
 )
 # Columns named that hold entries without a value.
+#: How often all rows are in memory to be compared with those of witnesses, to be drawn.
+CONFIRMED, DRAWN = 5, 2
 COUNTED = (
     "steps", "rejected", "newton", "jacobians", "factorizations", "events", "restarts",
 )  # fmt: skip
@@ -117,7 +119,8 @@ def simulate(
         _begin_files(session, journal, source)
 
         def need_its_room() -> None:
-            need_room(session.system, plan, kept, output, journal is not None)
+            tables = _tables_in_memory(journal, confirm)
+            need_room(session.system, plan, kept, output, journal is not None, tables)
 
         cpu = _carried_out(session, plan, began, need_its_room)
         results = _results_in_memory(session, cpu, notes, source)
@@ -132,6 +135,13 @@ def simulate(
 
 
 # Most runs need none of what the following functions import.
+
+
+def _tables_in_memory(journal: Journal | None, confirm: bool) -> int:
+    """How often all rows are in memory when a run has ended whose rows are kept in a file."""
+    if journal is None:
+        return 0
+    return CONFIRMED if confirm else DRAWN if journal.drawn else 0
 
 
 def _begin_files(session: Session, journal: Journal | None, source: RunSource) -> None:

@@ -218,6 +218,8 @@ class Journal:
 
     #: Why a session cannot be resumed, of which rows alone are kept.
     unkept = ""
+    #: Whether a page is drawn of its results, which needs them in memory.
+    drawn = False
     #: Files of the results of its first session that are written while it lasts, by their paths.
     growing: Mapping[Path, GrowingFile] = {}  # noqa: RUF012 - it is not changed
 

@@ -29,12 +29,14 @@ TOO_LARGE = (
 )
 FEWER = "fewer STEPS, a longer DTOUT"
 AS_TABLE = f"{FEWER}, or a table (-o NAME.csv), which is written row by row"
+IN_FILES = f"{FEWER}, or without --page and --confirm, which need all rows in memory"
 ELSEWHERE = "fewer columns (--outputs), or another disk"
 
 
 class Rows(NamedTuple):
     """The rows of a run: how many; their columns, and the numbers of a record, of which the columns
-    are made (``copies`` 2) or a part (1); whether they are kept in a file while the run lasts.
+    are made (``copies`` 2) or a part (1); whether they are kept in a file while the run lasts, and
+    how often they are all in memory when it has ended.
     """
 
     number: int
@@ -42,6 +44,7 @@ class Rows(NamedTuple):
     record: int
     copies: int
     filed: bool
+    tables: int = 0
 
 
 def require_room(rows: Rows, kept: int, file: Path | None) -> None:
@@ -66,9 +69,11 @@ def require_room(rows: Rows, kept: int, file: Path | None) -> None:
         fits(rows.number, kept)
     by_rows = file is None or file.suffix.lower() != IN_MEMORY
     own = 0 if rows.filed else rows.record + rows.copies * rows.columns
-    whole = 0 if by_rows else (3 if rows.filed else 1) * rows.columns
+    tables = 0 if by_rows else 3 if rows.filed else 1
+    whole = max(tables, rows.tables) * rows.columns
     memory = NUMBER * rows.number * (own + whole + OF_TIME)
-    _need("memory", memory, free_memory(), rows, rows.columns, "", FEWER if by_rows else AS_TABLE)
+    remedy = AS_TABLE if not by_rows else IN_FILES if rows.tables else FEWER
+    _need("memory", memory, free_memory(), rows, rows.columns, "", remedy)
     if file is not None:
         disk = NUMBER * rows.number * (kept + 1 + rows.filed * (rows.columns + 1))
         folder = file.resolve().parent

@@ -12,13 +12,12 @@ are called stdin.csv, and it reads tables from the current directory and below.
 """
 
 import argparse
-import os
 import sys
 from collections.abc import Mapping, Sequence
 from contextlib import closing, suppress
-from functools import cache
+from math import prod
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from adamslite.cli.commands.codes import DONE, OUTSIDE_TOLERANCE, STOPPED_EARLY
 from adamslite.notation import STDOUT
@@ -37,15 +36,9 @@ if TYPE_CHECKING:
 Written = tuple[str, Path]
 LINEARISED, PAGE = "linearised model", "page"
 
-#: Outcomes of runs that can go on: the flag, and how it goes on with it.
-LARGER = "goes on with it, where N is larger than before"
-GOING_ON = {
-    "INTERRUPTED": (),
-    "CPU_LIMIT": ("", "goes on with it, for as much CPU once more; or give another --cpu-limit"),
-    "STEP_LIMIT": (" --max-steps N", LARGER),
-    "CREEPING": (" --max-steps N", "goes on with it up to so many steps, however short"),
-    "MEMORY_LIMIT": (" --memory-limit SIZE", "goes on with it in more memory"),
-}
+#: Numbers of an interrupted run that a page is drawn of, and what is said where there are more.
+MOST_DRAWN = 2**22
+NOT_DRAWN = "the run was interrupted, and it takes long to draw so many rows"
 
 #: What becomes of LINEAR commands then.
 UNWRITTEN = "not written: it goes beside the results, and they went to no file"
@@ -86,15 +79,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Solve and write; return the exit code."""
+    from adamslite.cli.commands.run_journal import keep_journal, resumed_part
     from adamslite.errors import OutOfMemory
 
-    part, journal = _resumed(args), None
+    part, journal = resumed_part(args), None
     try:
         scene, output, files, page, journal = _prepared(args, part)
         return _solved(args, scene, output, files, page, journal)
     except (KeyboardInterrupt, OutOfMemory) as fault:
         if journal:
-            _keep(journal, *(GOING_ON["MEMORY_LIMIT"] if isinstance(fault, OutOfMemory) else ()))
+            full = isinstance(fault, OutOfMemory)
+            keep_journal(journal, "MEMORY_LIMIT" if full else "INTERRUPTED")
         raise
     finally:
         for each in (part, journal and journal.part):
@@ -107,6 +102,7 @@ def _prepared(
     args: argparse.Namespace, part: "PartFile | None"
 ) -> "tuple[Scene, str, Sequence[Path], Path | None, Journal]":
     """What is solved, the files that will be written, the page, where the run is kept."""
+    from adamslite.cli.commands.run_journal import journal_of
     from adamslite.errors import UsageError
     from adamslite.result_files import growing_files, plan
     from adamslite.results.formats import format_of
@@ -125,7 +121,8 @@ def _prepared(
     page = _page(args, scene, output)
     if not args.quiet:
         _tell_warnings(scene)
-    journal = _journal(args, scene, output, part)
+    journal = journal_of(args, scene, output, part)
+    journal.drawn = page is not None
     if output != STDOUT:
         journal.growing = growing_files(scene, Path(output), args.outputs)
     return scene, output, files, page, journal
@@ -140,6 +137,7 @@ def _solved(
     journal: "Journal",
 ) -> int:
     """Solve and write what was planned; return the exit code."""
+    from adamslite.cli.commands.run_journal import close_journal
     from adamslite.progress import Progress, TalkingProgress
     from adamslite.result_files import adams_files
     from adamslite.scene import run_scene
@@ -157,117 +155,14 @@ def _solved(
     finally:
         for each in growing.values():
             each.close()
-    if page:
-        _write_page(scene, results, page)
+    if page and _write_page(scene, results, page):
         written.insert(0, (PAGE, page))
     _summarize(scene, args, results, output, written)
-    _close(journal, results)
+    close_journal(journal, results)
     found = results.confirmation
     if not results.outcome.is_requested or (found and found.interrupted):
         return STOPPED_EARLY
     return DONE if found is None or found.confirmed else OUTSIDE_TOLERANCE
-
-
-def _resumed(args: argparse.Namespace) -> "PartFile | None":
-    """The file of the run to go on with, whose arguments are put into `args`."""
-    from adamslite.errors import UsageError
-    from adamslite.language.text import is_piped
-
-    if args.resume is None and args.deck is None:
-        raise UsageError("give the name of a deck, or --resume OUT.part")
-    if args.resume is None:
-        if args.trust:
-            raise UsageError("--trust goes with --resume OUT.part")
-        return None
-    if args.deck is not None and is_piped(args.deck):
-        raise UsageError(
-            "--resume reads the deck where the run had it; leave out '-', standard input"
-        )
-    from adamslite.cli.commands.unfinished import resumed
-
-    return resumed(args)
-
-
-def _journal(
-    args: argparse.Namespace, scene: "Scene", output: str, found: "PartFile | None"
-) -> "Journal":
-    """Where the run is kept when it takes long."""
-    from adamslite.analyses.dynamics.history import Journal
-    from adamslite.errors import UsageError
-
-    part = args.resume or Path(f"{output}.part")
-    unkept = _unkept(scene, output, part)
-    if unkept:
-        if found:
-            raise UsageError(f"{part} cannot be resumed: {unkept.unkept}")
-        return unkept
-    if os.path.lexists(part) and not found:
-        from adamslite.cli.commands.unfinished import report
-
-        report(part)
-
-    saved = _reloaded(scene, output)
-
-    @cache  # files may change while the run lasts
-    def facts() -> Mapping[str, Any]:
-        from adamslite.cli.commands.unfinished import facts_of
-
-        return facts_of(args, scene, saved)
-
-    if found:
-        from adamslite.cli.commands.unfinished import compare
-
-        compare(found, facts())
-    return Journal(part, facts, found)
-
-
-def _reloaded(scene: "Scene", output: str) -> Mapping[str, str]:
-    """Digests of the files that RELOAD will read."""
-    if not any(each.keyword == "RELOAD" for each in scene.commands):
-        return {}
-    from adamslite.command_files import reloaded
-
-    return reloaded(scene, Path(output))
-
-
-def _unkept(scene: "Scene", output: str, part: Path) -> "Journal | None":
-    """What becomes of the rows of a run that cannot be resumed."""
-    from adamslite.analyses.dynamics.history import Unkept
-    from adamslite.language.text import STDIN
-    from adamslite.outputs.whole_files import same_file
-
-    written = Path(output)
-    if str(scene.deck_path) == STDIN:
-        return Unkept("its deck could not be read again", None)
-    if output == STDOUT:
-        return Unkept("its results go to standard output", None)
-    if written.exists() and not written.is_file():
-        return Unkept(f"{output} is no plain file", None)
-    if scene.deck.user.calls_python:
-        return Unkept("its routines of Python may remember anything", written.parent)
-    if any(same_file(part, each) for each in scene.read):
-        return Unkept(f"{part} is read", written.parent)
-    return None
-
-
-def _close(journal: "Journal", results: "Results") -> None:
-    """The file of the run stays when it was interrupted, or has reached a limit, and can go on."""
-    if journal.unkept:
-        journal.close(keep=False)
-    elif results.outcome.name in GOING_ON:
-        _keep(journal, *GOING_ON[results.outcome.name])
-    elif journal.interrupted and results.confirmation:  # in one of its witnesses
-        _keep(journal)
-    else:
-        journal.close(keep=False)
-
-
-def _keep(journal: "Journal", flag: str = "", how: str = "goes on with it") -> None:
-    """Leave the file of the run, if it has one, and say so."""
-    journal.close(keep=True)
-    if journal.part and not journal.unkept:
-        command = f"adamslite solve --resume {journal.path}{flag}"
-        sys.stderr.write(f"adamslite: `{command}` {how}\n")
 
 
 def _page(args: argparse.Namespace, scene: "Scene", output: str) -> Path | None:
@@ -287,11 +182,17 @@ def _page(args: argparse.Namespace, scene: "Scene", output: str) -> Path | None:
     return page
 
 
-def _write_page(scene: "Scene", results: "Results", path: Path) -> None:
+def _write_page(scene: "Scene", results: "Results", path: Path) -> bool:
+    """Write the page; not of a long run that was interrupted, which is to end at once."""
     from adamslite.drawing.run_deck import at_start
     from adamslite.page.page import page, write_page
+    from adamslite.results.outcomes import Outcome
 
+    if results.outcome is Outcome.INTERRUPTED and prod(results.shape) > MOST_DRAWN:
+        sys.stderr.write(f"adamslite: {path} is not written: {NOT_DRAWN}\n")
+        return False
     write_page(page(results, at_start(scene.deck, scene.commands)), path)
+    return True
 
 
 def _write_adams(
