@@ -14,7 +14,6 @@ import numpy as np
 
 from adamslite.errors import FormatError, UsageError
 from adamslite.language.text import contents
-from adamslite.native.worker import interruptible
 from adamslite.outputs.whole_files import whole_file
 from adamslite.results.channels import with_units
 from adamslite.results.formats import register_format
@@ -29,16 +28,18 @@ def write(results: Results, path: str | Path) -> None:
     """Write `results` to the file `path`, whole or not at all."""
     arrow, parquet = _library()
     need_rows(results)
-    fields, columns = [], []
-    for name in ("time", *results.names):
-        unit = {"unit": results.channel(name).unit}
-        fields.append(arrow.field(name, arrow.float64(), metadata=unit))
-        columns.append(arrow.array(np.ascontiguousarray(results[name])))
+    fields = [
+        arrow.field(name, arrow.float64(), metadata={"unit": results.channel(name).unit})
+        for name in ("time", *results.names)
+    ]
     schema = arrow.schema(fields, metadata=attributes(results))
-    memory = BytesIO()
-    interruptible(lambda: parquet.write_table(arrow.table(columns, schema=schema), memory))
     with whole_file(path, binary=True) as stream:
-        stream.write(memory.getbuffer())
+        # Numbers that hardly come twice gain nothing by a dictionary, which takes time.
+        writer = parquet.ParquetWriter(stream, schema, use_dictionary=False)
+        for time, values in results.blocks():
+            columns = np.ascontiguousarray(np.vstack([time, values.T]))
+            writer.write_table(arrow.table(list(map(arrow.array, columns)), schema=schema))
+        writer.close()
 
 
 def read(path: str | Path) -> Results:

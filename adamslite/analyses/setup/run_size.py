@@ -4,9 +4,9 @@ With n rows, c columns and w numbers in a record (workspace and outputs), a run 
 
     8 n (w + 2 c + 5)     byte: the record, its columns, what is found of them; times
 
-(c for 2 c where the columns are a part of the record, those of point masses alone), and Parquet,
-which is put together in memory, 8 n c more.  A file takes 8 n (c + 1) byte at
-least, and as much again while rows are kept in a file; then none of them is in memory but times.
+(c for 2 c where the columns are a part of the record, those of point masses alone).  Where rows are
+kept in a file none of them is in memory but times, unless a page is drawn or the run is confirmed.
+A file takes 8 n (c + 1) byte at least, and as much again while rows are kept in a file.
 Numbers that use all their digits take 19 as text, those that are zero 4.
 """
 
@@ -20,15 +20,12 @@ from adamslite.machine import free_disk, free_memory
 from adamslite.results.formats import format_of
 
 NUMBER, OF_TIME = 8, 5
-#: The format that is put together in memory.
-IN_MEMORY = ".parquet"
 GIGA = 1e9
 TOO_LARGE = (
     "The results would have {rows} rows of {columns} columns, which take {need:.3g} GB of {what}, "
     "and {free:.3g} GB are free{where}: {remedy}."
 )
 FEWER = "fewer STEPS, a longer DTOUT"
-AS_TABLE = f"{FEWER}, or a table (-o NAME.csv), which is written row by row"
 IN_FILES = f"{FEWER}, or without --page and --confirm, which need all rows in memory"
 ELSEWHERE = "fewer columns (--outputs), or another disk"
 
@@ -67,12 +64,9 @@ def require_room(rows: Rows, kept: int, file: Path | None) -> None:
     """
     if file is not None and (fits := format_of(file).need_room):
         fits(rows.number, kept)
-    by_rows = file is None or file.suffix.lower() != IN_MEMORY
     own = 0 if rows.filed else rows.record + rows.copies * rows.columns
-    tables = 0 if by_rows else 3 if rows.filed else 1
-    whole = max(tables, rows.tables) * rows.columns
-    memory = NUMBER * rows.number * (own + whole + OF_TIME)
-    remedy = AS_TABLE if not by_rows else IN_FILES if rows.tables else FEWER
+    memory = NUMBER * rows.number * (own + rows.tables * rows.columns + OF_TIME)
+    remedy = IN_FILES if rows.tables else FEWER
     _need("memory", memory, free_memory(), rows, rows.columns, "", remedy)
     if file is not None:
         disk = NUMBER * rows.number * (kept + 1 + rows.filed * (rows.columns + 1))
