@@ -100,6 +100,9 @@ def test_more_than_the_disk_has_room_for_is_refused(
         main(["solve", str(deck), *flags, "--outputs", "POINT_MASS/2.x", "--max-steps", "9"]) == 4
     )
     assert len(al.Results.load(out).time) > 1
+    deck.write_text(POINT.replace("END\n", "RESULTS/XRF\nEND\n"))
+    assert main(["solve", str(deck), *flags, "--outputs", "POINT_MASS/2.*"]) == 2
+    assert "which take 0.48 GB of disk" in capsys.readouterr().err  # once more as .res
 
 
 @pytest.mark.parametrize("suffix", ["csv", "nc", "mat", "req", "res", "parquet"])

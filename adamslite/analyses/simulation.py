@@ -29,6 +29,7 @@ from adamslite.language.interfaces import key_of
 from adamslite.language.method import without_effect
 from adamslite.model.reduction import MERGED, kept_apart, left_off
 from adamslite.outputs.saved_files import SavedFiles
+from adamslite.results.adams_options import adams_options
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 from adamslite.results.source import source_of
@@ -119,8 +120,10 @@ def simulate(
         _begin_files(session, journal, source)
 
         def need_its_room() -> None:
+            asked = adams_options(session.deck, commands).results
+            files = 2 if asked and output and output.suffix.lower() != ".res" else 1
             tables = _tables_in_memory(journal, confirm)
-            need_room(session.system, plan, kept, output, journal is not None, tables)
+            need_room(session.system, plan, kept, output, journal is not None, tables, files)
 
         cpu = _carried_out(session, plan, began, need_its_room)
         results = _results_in_memory(session, cpu, notes, source)

@@ -157,10 +157,11 @@ def need_room(
     output: Path | None,
     filed: bool,
     tables: int = 0,
+    files: int = 1,
 ) -> None:
     """Reject a run whose results, with ``kept`` columns in a file, there is no room for; ``filed``:
     where its rows are many they are kept in a file, and all of them in memory ``tables`` times when
-    it has ended.
+    it has ended; ``files`` have them.
     """
     plan = list(plan)
     rows, columns = rows_of(plan), len(column_names(system.kernels))
@@ -170,7 +171,7 @@ def need_room(
 
         filed = filed and not system.model.deck.delays and all(map(_is_filed, plan))
         copies = 1 if columns == record - system.numbering.n_head else 2
-        require_room(Rows(rows, columns, record, copies, filed, tables), kept, output)
+        require_room(Rows(rows, columns, record, copies, filed, tables, files), kept, output)
 
 
 def _is_filed(command: Command) -> bool:

@@ -33,7 +33,7 @@ ELSEWHERE = "fewer columns (--outputs), or another disk"
 class Rows(NamedTuple):
     """The rows of a run: how many; their columns, and the numbers of a record, of which the columns
     are made (``copies`` 2) or a part (1); whether they are kept in a file while the run lasts, and
-    how often they are all in memory when it has ended.
+    how often they are all in memory when it has ended; how many files have them.
     """
 
     number: int
@@ -42,6 +42,7 @@ class Rows(NamedTuple):
     copies: int
     filed: bool
     tables: int = 0
+    files: int = 1
 
 
 def require_room(rows: Rows, kept: int, file: Path | None) -> None:
@@ -69,7 +70,7 @@ def require_room(rows: Rows, kept: int, file: Path | None) -> None:
     remedy = IN_FILES if rows.tables else FEWER
     _need("memory", memory, free_memory(), rows, rows.columns, "", remedy)
     if file is not None:
-        disk = NUMBER * rows.number * (kept + 1 + rows.filed * (rows.columns + 1))
+        disk = NUMBER * rows.number * (rows.files * (kept + 1) + rows.filed * (rows.columns + 1))
         folder = file.resolve().parent
         where = f" in {folder}"
         _need("disk", disk, free_disk(folder), rows, kept, where, f"{FEWER}, {ELSEWHERE}")
