@@ -13,6 +13,8 @@ import pytest
 from scenes import compiled, run
 
 import adamslite as al
+from adamslite.elements.variable import Variable
+from adamslite.model import chains
 from adamslite.model.cycles import in_loops
 
 DECK = """Chain of variables
@@ -234,3 +236,102 @@ def test_members_of_cycles_are_those_that_reach_themselves(seed: int) -> None:
         for direct in reach.values():
             direct |= set().union(*(reach.get(each, set()) for each in direct))
     assert in_loops(uses) == {key for key, found in reach.items() if key in found}
+
+
+# ---- chains that many forces take ------------------------------------------------------------
+
+BUSY = "VARIABLE/{i}, FUNCTION=SIN(VARVAL({j}))+{i}"
+
+
+def crowd(n: int, link: str = BUSY) -> str:
+    """A chain v_k = sin v_(k-1) + k, each link part of the tension of a line between a mass and the
+    one before.
+    """
+    lines = [f"VARIABLE/1, FUNCTION={OF_STATE}"]
+    lines += [link.format(i=i, j=i - 1) for i in range(2, n + 1)]
+    for i in range(1, n + 1):
+        lines += [f"POINT_MASS/{i + 2}, MASS=1, CM={i + 2}, QG={i + 1},{i / 10},0"]
+        lines += [f"MARKER/{i + 2}, POINT_MASS={i + 2}"]
+        law = f"-0.01*VARVAL({i})-0.1*DX({i + 2},{i + 1})"
+        lines += [f"SFORCE/{i}, TRANSLATIONAL, I={i + 2}, J={i + 1}, FUNCTION={law}"]
+    return DECK.format(chain="\n".join(lines), n=1)
+
+
+def solved_for(text: str) -> set[int]:
+    """VARIABLEs that are solved for."""
+    model = al.assemble(al.read(text))
+    return {v.key for v in model.deck.of(Variable) if model.variable_kind(v.key) == "loop"}
+
+
+def test_code_of_forces_that_each_take_a_link_does_not_grow_with_the_chain() -> None:
+    """Written out, 1000 links would be 3 million operations."""
+    few, many = (compiled(crowd(n)).groups for n in (150, 1000))
+    assert sum(len(group.code) for group in few) == sum(len(group.code) for group in many)
+    assert solved_for(crowd(150)) == set(range(9, 150))  # the last link is taken once
+
+
+@pytest.mark.parametrize("method", ["GSTIFF", "HHT", "RADAU", "ABAM"])
+def test_a_crowded_chain_moves_as_one_that_is_written_out(
+    method: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Links have the values of their FUNCTION in the posture."""
+    text = crowd(30)
+    assert not solved_for(text)
+    whole = al.simulate(text, end=0.5, steps=5, integrator=method, error=1e-8)
+    monkeypatch.setattr(chains, "MOST_WRITTEN", 100)
+    assert solved_for(text) == set(range(9, 30))
+    found = al.simulate(text, end=0.5, steps=5, integrator=method, error=1e-8)
+    assert whole.outcome.name == found.outcome.name == "DONE"
+    sizes = np.maximum(np.abs(whole.values).max(axis=0), 1.0)
+    assert (np.abs(found.values - whole.values) < 1e-7 * sizes).all()
+    value = 1.3 + 0.2 * found["POINT_MASS/2.x"]
+    for i in range(2, 31):
+        value = np.sin(value) + i
+    np.testing.assert_allclose(found["VARIABLE/30"], value, rtol=1e-9)
+
+
+def test_a_crowded_chain_starts_at_its_values_and_follows_a_jump() -> None:
+    """v_1 jumps by 1 at 0.3 s, and with it all 150 links; force 150 takes what they come to."""
+    text = crowd(150).replace(OF_STATE, "1.3+0.2*DX(2,1)+IF(TIME-0.3: 0, 0, 1)")
+    found = al.simulate(text, end=0.5, steps=5, integrator="GSTIFF", error=1e-6)
+    assert found.outcome.name == "DONE"
+    value = 1.3 + 0.2 * found["POINT_MASS/2.x"] + (found.time > 0.3 + 1e-9)
+    for i in range(1, 151):
+        value = np.sin(value) + i if i > 1 else value
+        beside = [0, 1, 2, 4, 5]  # at 0.3 s there are two values
+        np.testing.assert_allclose(found[f"VARIABLE/{i}"][beside], value[beside], rtol=1e-6)
+
+
+def test_what_of_chains_is_written_out() -> None:
+    """A chain that one force takes; one whose forces are of one shape; constants; and signals."""
+    alone = crowd(200).replace("-0.01*VARVAL(", "-0.01*(").replace("*(200)", "*VARVAL(200)")
+    assert not solved_for(alone)
+    ends = [f"VARIABLE/{k}, FUNCTION={k}*VARVAL(20)" for k in range(1000, 4000)]
+    forces = [f"VFORCE/{k}, I=2, J_PART=1, FZ=VARVAL({k})" for k in range(1000, 4000)]
+    links = [f"VARIABLE/1, FUNCTION={OF_STATE}"]
+    links += [BUSY.format(i=i, j=i - 1) for i in range(2, 21)]
+    assert not solved_for(DECK.format(chain="\n".join([*links, *ends, *forces]), n=1))
+    assert not solved_for(
+        crowd(200, link="VARIABLE/{i}, FUNCTION=2+VARVAL({j})").replace(OF_STATE, CONSTANT)
+    )
+    assert not solved_for(crowd(200).replace(OF_STATE, OF_TIME))
+
+
+def test_a_crowded_chain_stays_solved_for_when_some_forces_are_switched_off() -> None:
+    """The links go on from where they were."""
+    off = "".join(f"DEACTIVATE/SFORCE, ID={i}\n" for i in (1, 75, 149))
+    commands = (
+        f"SIMULATE/DYNAMIC, END=0.2, STEPS=2\n{off}SIMULATE/DYNAMIC, END=0.4, STEPS=2\nSTOP\n"
+    )
+    found = al.simulate(crowd(150), commands=commands)
+    assert found.outcome.name == "DONE" and found.time[-1] == pytest.approx(0.4)
+    value = 1.3 + 0.2 * found["POINT_MASS/2.x"]
+    for i in range(2, 151):
+        value = np.sin(value) + i
+    np.testing.assert_allclose(found["VARIABLE/150"], value, rtol=1e-9)
+
+
+def test_a_line_of_a_long_chain_is_looked_at_without_calling_itself_for_each_link() -> None:
+    """400 links behind one line, which is examined for sections of a cable behind the run."""
+    text = crowd(400).replace("-0.01*VARVAL(", "-0.01*(").replace("*(400)", "*VARVAL(400)")
+    assert run(text, 0.1, 1).outcome.name == "DONE"

@@ -35,6 +35,7 @@ from adamslite.language.expression import (
 from adamslite.language.interfaces import Key
 from adamslite.language.routines import USER
 from adamslite.language.statement import class_of, expressions
+from adamslite.model.chains import crowded
 from adamslite.model.cycles import behind_others, in_loops, of_each_other
 from adamslite.model.geometry import IDENTITY, Place, frame_axes, rotated
 
@@ -284,7 +285,7 @@ class Model:
     def variable_kind(self, variable_id: Key) -> str:
         """``signal`` (depends on time only), ``loop`` (solved for) or ``inline``.
 
-        Solved for are those that depend on themselves, and inputs and outputs of the plant.
+        Solved for are those that depend on themselves, those of the plant, and crowded chains.
         """
         return self._kinds[variable_id]
 
@@ -310,6 +311,7 @@ class Model:
         if "variables" in self.without:
             loops |= {v.key for v in self.deck.of(Variable)}
         signals = self._signals(loops)
+        loops |= crowded(self, loops, signals)
         return {
             v.key: "loop" if v.key in loops else "signal" if v.key in signals else "inline"
             for v in self.deck.of(Variable)

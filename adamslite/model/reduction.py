@@ -4,7 +4,7 @@
     plane      what moves in a plane is solved in the plane (analyses/dynamics/planar_reduction.py)
     points     a point mass has three unknowns and no attitude
     variables  a VARIABLE is evaluated where it is used; solved for is only what depends on itself,
-               and inputs and outputs of a plant
+               inputs and outputs of a plant, and long chains that many forces take (chains.py)
 
 Results are the same with and without, to the accuracy of the integration. Not by rules, because
 nothing is gained by doing without: ground and its markers are constants, redundant constraint rows

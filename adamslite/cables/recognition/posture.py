@@ -5,6 +5,7 @@ have to find (reactions, forces that are measured) is :class:`Unknown`; what a c
 as a function of time is computed from that constraint.
 """
 
+from collections import ChainMap
 from collections.abc import Callable, Iterator
 from functools import partial
 from math import atan2, isnan, nan
@@ -20,8 +21,9 @@ from adamslite.elements.motion import Motion
 from adamslite.elements.part import Part
 from adamslite.elements.point_mass import PointMass
 from adamslite.elements.variable import Variable
-from adamslite.language.expression import Call, Node, Ref, Time, walk
+from adamslite.language.expression import Call, Node, Ref, Time, calls, walk
 from adamslite.language.interfaces import Key
+from adamslite.model.cycles import behind_others
 
 Body = tuple[str, Key]
 """Keyword and id."""
@@ -159,15 +161,26 @@ class Posture:
         raise Unknown
 
     def _variable(self, key: Key) -> float:
-        if key in self._constants:
-            return self._constants[key]
-        if key not in self._variables:
-            self._variables[key] = nan  # one that depends on itself is not known
-            function = self.deck.get(Variable, key).function
-            self._variables[key] = self.value(function)
-            if self._is_constant(function):
-                self._constants[key] = self._variables[key]
-        return _known(self._variables[key])
+        """Of a VARIABLE; those that it takes are known before, so that nothing calls itself for
+        each link of a chain.
+        """
+        known = ChainMap(self._constants, self._variables)
+        for each in behind_others([key], self._taken, known):
+            self._settle(each)
+        return _known(known[key])
+
+    def _settle(self, key: Key) -> None:
+        self._variables[key] = nan  # one that depends on itself is not known
+        function = self.deck.get(Variable, key).function
+        self._variables[key] = self.value(function)
+        if self._is_constant(function):
+            self._constants[key] = self._variables[key]
+
+    def _taken(self, key: Key) -> list[Key]:
+        """The VARIABLEs whose values a VARIABLE takes."""
+        function = self.deck.get(Variable, key).function
+        return [ref.id for call in calls(function, "VARVAL") for ref in call.args
+                if isinstance(ref, Ref)]  # fmt: skip
 
     def _distance(self, name: str, ids: list[Key]) -> float:
         d = self.place(ids[0])
@@ -194,9 +207,12 @@ class Posture:
         return {n for n in self._all(node) if isinstance(n, Call) and n.name in RATES}
 
     def _is_constant(self, node: Node) -> bool:
-        return not any(
-            isinstance(each, Time) or (isinstance(each, Call) and each.name != "VARVAL")
-            for each in self._all(node)
+        """Whether nothing in it changes; the VARIABLEs that it takes are known."""
+        return all(
+            each.id in self._constants
+            if isinstance(each, Ref)
+            else not (isinstance(each, Time) or (isinstance(each, Call) and each.name != "VARVAL"))
+            for each in walk(node)
         )
 
     def depends_on_time(self, node: Node) -> bool:
