@@ -13,15 +13,16 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Container, Iterator
 from itertools import chain
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Protocol
 
 from adamslite.language.expression import Ref, walk
 from adamslite.language.statement import Statement, expressions
 from adamslite.model.cycles import behind_others
 
 if TYPE_CHECKING:
+    from adamslite.deck.deck import Deck
+    from adamslite.language.expression import Node
     from adamslite.language.interfaces import Key
-    from adamslite.model.model import Model
 
 SHORT = 8
 """VARIABLEs that a statement may be made of and have a kernel of its own, which it shares with all
@@ -31,6 +32,18 @@ MOST_WRITTEN = 20_000
 """Operations that statements which take links of the same chains may write out all together;
 compiling these takes five seconds, and a minute where each link measures another body.
 """
+
+
+class WithVariables(Protocol):
+    """What is asked of :class:`adamslite.model.model.Model`."""
+
+    deck: Deck
+
+    @property
+    def uses(self) -> dict[Key, set[Key]]: ...
+    def used_in(self, node: Node) -> Iterator[Key]: ...
+    def constant_variable(self, variable_id: Key) -> float | None: ...
+    def variable(self, variable_id: Key) -> Any: ...
 
 
 def long_chains(uses: dict[Key, set[Key]], others: Container[Key]) -> set[Key]:
@@ -66,7 +79,7 @@ class Joined:
             self._above[self.name(each)] = self.name(first)
 
 
-def crowded(model: Model, loops: set[Key], signals: set[Key]) -> set[Key]:
+def crowded(model: WithVariables, loops: set[Key], signals: set[Key]) -> set[Key]:
     """Links of long chains that several statements or VARIABLEs take, of chains of which all
     statements together would write out too much, beside what is solved for (``loops``) and what
     depends on time only (``signals``).
@@ -93,7 +106,9 @@ def crowded(model: Model, loops: set[Key], signals: set[Key]) -> set[Key]:
     return {key for key in long if takers[key] > 1 and joined.name(key) in full}
 
 
-def _taken_together(model: Model, long: set[Key], loops: set[Key]) -> Iterator[tuple[Key, ...]]:
+def _taken_together(
+    model: WithVariables, long: set[Key], loops: set[Key]
+) -> Iterator[tuple[Key, ...]]:
     """The long chains that each statement which acts on the motion takes the values of."""
     for statement in model.deck.statements:
         if _is_evaluated(statement, loops):
@@ -112,7 +127,7 @@ def _is_evaluated(statement: Statement, loops: set[Key]) -> bool:
     return any(hasattr(statement, face) for face in ("loads", "equation", "relation"))
 
 
-def _is_too_much(model: Model, found: list[tuple[Key, ...]], others: set[Key]) -> bool:
+def _is_too_much(model: WithVariables, found: list[tuple[Key, ...]], others: set[Key]) -> bool:
     """Whether statements that take these VARIABLEs write out more operations than they may.
 
     Those of equal size are of one shape, and counted once, or few.
@@ -133,6 +148,6 @@ def _is_too_much(model: Model, found: list[tuple[Key, ...]], others: set[Key]) -
     return False
 
 
-def _operations(model: Model, key: Key) -> int:
+def _operations(model: WithVariables, key: Key) -> int:
     """Numbers, operations and calls of a VARIABLE."""
     return sum(not isinstance(each, Ref) for each in walk(model.variable(key).function))
