@@ -35,7 +35,6 @@ from adamslite.language.expression import (
 from adamslite.language.interfaces import Key
 from adamslite.language.routines import USER
 from adamslite.language.statement import class_of, expressions
-from adamslite.model.chains import crowded
 from adamslite.model.cycles import behind_others, in_loops, of_each_other
 from adamslite.model.geometry import IDENTITY, Place, frame_axes, rotated
 
@@ -307,6 +306,8 @@ class Model:
 
     @cached_property
     def _kinds(self) -> dict[Key, str]:
+        from adamslite.model.chains import crowded  # not where kernels were kept
+
         loops = self._plant | self.circular
         if "variables" in self.without:
             loops |= {v.key for v in self.deck.of(Variable)}
