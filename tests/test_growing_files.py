@@ -125,6 +125,22 @@ def test_rows_that_are_taken_back(tmp_path: Path, suffix: str, count: int) -> No
     assert table.finish(whole) and same(path, whole)
 
 
+@pytest.mark.parametrize("suffix", FORMATS)
+def test_a_long_file_that_becomes_a_short_one(tmp_path: Path, suffix: str) -> None:
+    """All rows were taken back, and few have come since: a table without its head would be written
+    otherwise.
+    """
+    path, whole = tmp_path / f"x{suffix}", results(1000)
+    history, table = growing(path)
+    for first in (0, 500):
+        history.extend(piece(whole, first, first + 500))
+    history.return_to([])
+    for first in range(0, 60, 20):
+        history.extend(piece(whole, first, first + 20))
+    few = Results(time=whole.time[:60], names=NAMES, values=whole.values[:60], meta=whole.meta)
+    assert not table.finish(few) and [*tmp_path.iterdir()] == []
+
+
 def test_an_equilibrium_in_the_place_of_the_last_row(tmp_path: Path) -> None:
     path, whole = tmp_path / "x.csv", results(1000)
     history, table = growing(path)

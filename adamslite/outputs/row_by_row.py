@@ -96,6 +96,14 @@ def write(layout: Layout, results: Results, path: str | Path) -> None:
         stream.writelines(pieces(layout, results, is_long(results)))
 
 
+class _Written(NamedTuple):
+    """Rows that are written, the bytes to their end, and what is before the next row."""
+
+    rows: int
+    end: int
+    before: Before
+
+
 class _GivenUp(Exception):
     """A file that is not wanted any more."""
 
@@ -116,23 +124,19 @@ class GrowingFile:
         self.layout, self.path, self.patterns = layout, path, patterns
         #: What is known of the results before the first row, by the names of their columns.
         self.begun: Callable[[tuple[str, ...]], Results] | None = None
-        #: Whether rows of an earlier process are being written again.
-        self.catching_up = False
         self._draft: ExitStack | None = None
         self._forget()
 
     def _forget(self) -> None:
         self._names: tuple[str, ...] | None = None
         self._chosen: list[int] | None = None
-        # Rows that are written, the bytes to their ends, and what is before the next row.
-        self._rows, self._ends = [0], [0]
-        self._before: list[Before] = [None]
+        self._written = [_Written(0, 0, None)]
         self._sent = 0
 
     @property
     def count(self) -> int:
         """How many rows are written."""
-        return self._rows[-1]
+        return self._written[-1].rows
 
     def follow(self, rows: Rows) -> None:
         """Write further rows, where they are many enough."""
@@ -141,7 +145,8 @@ class GrowingFile:
         count, names = rows.count, rows.names
         if names != self._names:
             self._forget()
-            self._names, self._chosen = names, self._columns(names)
+            self._chosen = self._columns(names)
+            self._names = names
         width = 1 + len(names if self._chosen is None else self._chosen)
         if count * width <= LONG or (count - self.count) * width < SLICE:
             return
@@ -150,39 +155,26 @@ class GrowingFile:
         except (OSError, MemoryError, UsageError):  # all will be written, or reported, at the end
             self.close()
 
-    def catch_up(self, rows: Rows) -> None:
-        """Write the rows that a resumed run begins with."""
-        self.catching_up = True
-        self.follow(rows)
-        self.catching_up = False
-
     def back_to(self, count: int) -> None:
         """Rows from this one on have been taken back."""
-        while self._rows[-1] > count:
-            for each in (self._rows, self._ends, self._before):
-                each.pop()
+        while self.count > count:
+            self._written.pop()
 
     def finish(self, results: Results) -> bool:
         """Write the rest; False when the file has to be written as a whole, as it has not grown, or
         the results are not as they were begun.
-
-        Raises
-        ------
-        KeyboardInterrupt
-            When it has been interrupted while it caught up: there is nothing new to be written.
         """
-        if self.catching_up:
-            raise KeyboardInterrupt
-        own = self._own_names(), self._ends[0]
         head = self.layout.head(results, True) if self._draft and is_long(results) else b""
-        if not self._draft or (results.names, len(head)) != own or results.count < self.count:
+        own, last = (self._own_names(), self._written[0].end), self._written[-1]
+        as_begun = (results.names, len(head)) == own and results.count >= last.rows
+        if not self._draft or not head or not as_begun:
             self.close()
             return False
         draft, self._draft = self._draft, None
-        stream, rest = self._stream, results.blocks(self.count)
+        stream, rest = self._stream, results.blocks(last.rows)
         with draft:
-            stream.seek(self._ends[-1])
-            stream.writelines(_rows(self.layout.rows(results), rest, self._before[-1]))
+            stream.seek(last.end)
+            stream.writelines(_rows(self.layout.rows(results), rest, last.before))
             stream.write(self.layout.tail(results, True))
             stream.truncate()
             stream.seek(0)
@@ -219,20 +211,20 @@ class GrowingFile:
             head = self.layout.head(results, True)
             self._stream.seek(0)
             self._stream.write(head)
-            self._ends = [len(head)]
-        self._stream.seek(self._ends[-1])
+            self._written = [_Written(0, len(head), None)]
+        self._stream.seek(self._written[-1].end)
         write = self.layout.rows(results)
         for time, values in rows.parts(max(1, BLOCK // max(1, len(rows.names))), self.count):
             own = values if self._chosen is None else values[:, self._chosen]
-            self._stream.writelines(write(time, own, self._before[-1]))
-            self._rows.append(self.count + len(time))
-            self._ends.append(self._stream.tell())
-            self._before.append(_behind(time, self._before[-1]))
+            before, count = self._written[-1].before, self.count + len(time)
+            self._stream.writelines(write(time, own, before))
+            end, before = self._stream.tell(), _behind(time, before)
+            self._written.append(_Written(count, end, before))
             self._send()
 
     def _send(self) -> None:
         """Have the disk take what is written, without waiting for it."""
-        end = self._ends[-1]
+        end = self._written[-1].end
         if end - self._sent >= SENT and hasattr(os, "posix_fadvise"):
             self._stream.flush()
             with suppress(OSError):  # it is no more than a wish

@@ -87,16 +87,15 @@ class History:
         """Add further rows of the same analysis."""
         for file in self.growing:  # first: who is interrupted meanwhile adds the rows again
             file.follow(self)
-        self.stretches.append(piece)
-        if self.part:
-            self.file(self.part)
+        kept = self.part.continued(self.stretches, piece) if self.part else None
+        self.stretches = [*self.stretches, piece] if kept is None else kept
 
     def file(self, part: PartFile) -> None:
         """Keep the rows in a file from here on."""
-        self.part, stretches = part, self.stretches
-        self.stretches = []
-        for each in stretches:
-            self.stretches = part.continued(self.stretches, each)
+        filed: list[Stretch] = []
+        for each in self.stretches:
+            filed = part.continued(filed, each)
+        self.part, self.stretches = part, filed
 
     def cut(self, rows: int) -> None:
         """Take the last rows away."""
@@ -218,6 +217,8 @@ class Journal:
 
     #: Why a session cannot be resumed, of which rows alone are kept.
     unkept = ""
+    #: Whether the run is being put where an earlier process had it: there is nothing new yet.
+    catching_up = False
     #: Whether a page is drawn of its results, which needs them in memory.
     drawn = False
     #: Files of the results of its first session that are written while it lasts, by their paths.
@@ -267,12 +268,14 @@ class Journal:
         from adamslite.analyses.dynamics import checkpoint
 
         self.ends = checkpoint.known_ends(self.part) | self.ends
+        self.catching_up = True
         found = checkpoint.resumed(self.part, self.ends, self.run, system)
-        if found is None:
-            return None
-        history.part, (code, history.stretches) = self.part, found
-        for file in history.growing:
-            file.catch_up(history)
+        code = None
+        if found:
+            history.part, (code, history.stretches) = self.part, found
+            for file in history.growing:
+                file.follow(history)
+        self.catching_up = False
         return code
 
     def close(self, keep: bool) -> None:

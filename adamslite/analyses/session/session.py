@@ -83,9 +83,9 @@ class Session(SessionState):
 
     def _end_by(self, fault: BaseException, kernels: Kernels, present: System | None) -> None:
         """Keep what earlier commands have written, and nothing of what is half done, as a model
-        that is being changed.
+        that is being changed.  What a resumed run begins with is kept already.
         """
-        if not self.history.stretches:
+        if not self.history.stretches or (self.journal and self.journal.catching_up):
             raise fault
         self.kernels, self.present = kernels, present
         self.outcome = Outcome.INTERRUPTED

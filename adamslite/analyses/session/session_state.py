@@ -279,14 +279,24 @@ class SessionState:
     ) -> None:
         """Keep the records of a full block, whose room is for the next one; where a step was taken
         back behind its first record, take those away that were kept too early.
+
+        All of that or, where it is interrupted or memory is short, nothing: who goes on has the
+        records once.
         """
-        block = system.block
-        if block.row < block.first:
-            self._take_back(block.row, wanted[: block.first])
-        else:
-            self._add(system, times, static, wanted)
-            system.record = np.zeros_like(system.record)  # the history may keep the old one
-        block.first = system.count.records = block.row
+        block, kept, record = system.block, self.history.mark(), system.record
+        first = int(block.first)
+        try:
+            if block.row < first:
+                self._take_back(block.row, wanted[:first])
+            else:
+                fresh = np.zeros_like(record)  # the history may keep the old one
+                self._add(system, times, static, wanted)
+                system.record = fresh
+            block.first = system.count.records = block.row
+        except (KeyboardInterrupt, MemoryError):
+            system.record, block.first = record, first
+            self.history.return_to(kept)
+            raise
 
     def _take_back(self, row: int, wanted: np.ndarray) -> None:
         if row:
