@@ -5,6 +5,7 @@ Analyses that solve their output times in turn keep their rows in the thread tha
 
 from __future__ import annotations
 
+import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -15,7 +16,7 @@ from typing import Any
 import numpy as np
 import pytest
 from test_growing_files import growing, piece, results, same
-from unfinished_scenes import cranked, lowered, written
+from unfinished_scenes import cranked, lowered, spring, written
 
 from adamslite.analyses.dynamics import dynamic, history
 from adamslite.analyses.session.session_state import SessionState
@@ -155,3 +156,36 @@ def test_rows_on_their_way_to_the_file_of_the_run(tmp_path: Path) -> None:
         np.testing.assert_array_equal(table.values, whole.values, str(number))
         part.close()
     assert number > 20
+
+
+CUT = """\
+import sys
+from pathlib import Path
+from adamslite.__main__ import main
+from adamslite.outputs import whole_files
+lock, unlink = whole_files.lock, Path.unlink
+def again(self, missing_ok=False):
+    Path.unlink = unlink
+    raise KeyboardInterrupt
+def interrupted(stream):
+    if Path(stream.name).name.startswith(".x."):
+        Path.unlink = again
+        raise KeyboardInterrupt
+    return lock(stream)
+whole_files.lock = interrupted
+sys.exit(main())
+"""
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".mat"])
+def test_nothing_is_left_of_a_draft_whose_removal_is_interrupted(
+    tmp_path: Path, suffix: str
+) -> None:
+    """Ctrl-C while the results are written, and again: the draft goes when the process ends."""
+    deck, output = written(tmp_path, spring(1, 10)), tmp_path / f"x{suffix}"
+    done = subprocess.run(
+        [sys.executable, "-c", CUT, "solve", str(deck), "-o", str(output)],
+        capture_output=True, text=True, cwd=tmp_path,
+    )  # fmt: skip
+    assert done.returncode == 4 and done.stderr.endswith("adamslite: interrupted\n"), done.stderr
+    assert [each.name for each in tmp_path.iterdir()] == ["deck.adm"]

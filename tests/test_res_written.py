@@ -66,6 +66,22 @@ def test_parts_are_written_by_their_origin_and_axes(tmp_path: Path) -> None:
         assert attitude(*angles) == pytest.approx(turned, abs=1e-7)
 
 
+def test_a_deck_without_units(tmp_path: Path) -> None:
+    """Its file names none: "as in the deck", which a table says, are no units."""
+    deck = FREE.replace("UNITS", "!UNITS")
+    assert deck != FREE
+    whole = adamslite.simulate(adamslite.read(deck))
+    whole.save(tmp_path / "a.res")
+    root = ElementTree.parse(tmp_path / "a.res").getroot()
+    units = root.find(f".//{NAMESPACE}Units").attrib
+    assert {units[kind] for kind in ("length", "mass", "time")} == {""}
+    named = {each.get("unitsValue") for each in root.iter(f"{NAMESPACE}Component")}
+    assert named == {None, "rad"}
+    read = Results.load(tmp_path / "a.res")
+    np.testing.assert_allclose(read.values, whole.values, atol=1e-9)
+    assert read.unit_symbols == {} and read.names == whole.names
+
+
 def test_what_is_written_is_read_back_in_terms_of_the_results(tmp_path: Path) -> None:
     """Forces along a line, about z and action-only, names with quotes, a name left out by CNAMES;
     to the round-off of the way there and back."""

@@ -4,6 +4,7 @@ A draft is ``.NAME.xxxxxxxx.part`` beside ``NAME`` and locked by whoever writes 
 that is killed does no longer.
 """
 
+import atexit
 import os
 import re
 import stat
@@ -19,6 +20,30 @@ WINDOWS = os.name == "nt"
 #: A draft may be unlocked for a moment when it is made, and without locks before it gets its name
 #: [s].
 YOUNG = 60.0
+
+
+#: Drafts that this process writes, each with its number.
+_written: set[tuple[int, Path]] = set()
+
+
+def begun(draft: Path) -> None:
+    """A draft is going to be written.  An interruption between two statements may keep whoever
+    writes it from removing it: then it goes when the process ends.
+    """
+    _written.add((os.getpid(), draft))
+
+
+def over(draft: Path) -> None:
+    """A draft has got its name, or has gone."""
+    _written.discard((os.getpid(), draft))
+
+
+@atexit.register
+def _remove_written() -> None:
+    for process, draft in _written:
+        with suppress(OSError):
+            if process == os.getpid():
+                draft.unlink(missing_ok=True)
 
 
 def draft_of(target: Path) -> Path:

@@ -32,7 +32,7 @@ import numpy as np
 
 from adamslite.caching.secret import seal
 from adamslite.errors import FormatError, UsageError
-from adamslite.outputs.drafts import SUFFIX, draft_of, lock
+from adamslite.outputs.drafts import SUFFIX, begun, draft_of, lock, over
 from adamslite.results.untrusted import from_json
 
 MAGIC = b"adamslite part 2\n"
@@ -157,6 +157,7 @@ class PartFile:
                 _lock(path, stream)
             os.replace(path, f"{path}{OLD}")
         draft = draft_of(path)
+        begun(draft)
         flags = os.O_RDWR | os.O_CREAT | os.O_EXCL | BINARY
         stream = os.fdopen(os.open(draft, flags, 0o666), "r+b")
         try:
@@ -169,6 +170,8 @@ class PartFile:
             stream.close()
             draft.unlink(missing_ok=True)
             raise
+        finally:
+            over(draft)
         return found
 
     @staticmethod

@@ -8,7 +8,7 @@ from typing import IO, Any, Literal, overload
 
 from adamslite.errors import UsageError
 from adamslite.notation import STDOUT
-from adamslite.outputs.drafts import WINDOWS, draft_of, lock, remove_drafts
+from adamslite.outputs.drafts import WINDOWS, begun, draft_of, lock, over, remove_drafts
 
 #: How matrices for MATLAB begin, which have no room for a word: no reader of numbers minds blanks.
 PLAIN = " \t "
@@ -52,6 +52,7 @@ def whole_file(path: str | Path, binary: bool = False) -> Iterator[IO[Any]]:
             yield stream
         return
     draft = draft_of(target)
+    begun(draft)
     try:
         with _named(path, draft):
             with open(draft, f"x{kind}", encoding=encoding, newline=newline) as stream:
@@ -66,6 +67,7 @@ def whole_file(path: str | Path, binary: bool = False) -> Iterator[IO[Any]]:
     finally:
         with suppress(OSError):
             draft.unlink(missing_ok=True)
+            over(draft)
 
 
 @contextmanager

@@ -205,7 +205,8 @@ def _respelled(results: Results, unit: str) -> str:
 
 
 def _unit_words(results: Results) -> dict[str, str]:
-    names = results.meta.get("units", "").split()
+    """The units in the words of ADAMS; empty where the deck names none."""
+    names = results.meta.get("units", "").split() if results.unit_symbols else []
     kinds = ("force", "mass", "length", "time")
     return dict(zip(kinds, (UNITS.get(name, name.lower()) for name in names), strict=False))
 
