@@ -92,8 +92,11 @@ def _behind(time: np.ndarray, before: Before) -> Before:
 
 def write(layout: Layout, results: Results, path: str | Path) -> None:
     """Write results to the file `path`, whole or not at all."""
+    found = pieces(layout, results, is_long(results))
+    head = next(found)  # what it takes is loaded before there is a draft
     with whole_file(path, binary=True) as stream:
-        stream.writelines(pieces(layout, results, is_long(results)))
+        stream.write(head)
+        stream.writelines(found)
 
 
 class _Written(NamedTuple):
@@ -203,12 +206,12 @@ class GrowingFile:
     def _follow(self, rows: Rows) -> None:
         assert self.begun is not None
         results = self.begun(self._own_names())
+        head = b"" if self.count else self.layout.head(results, True)
         if self._draft is None:
             draft = ExitStack()
             self._stream = draft.enter_context(whole_file(self.path, binary=True))
             self._draft = draft
-        if self.count == 0:
-            head = self.layout.head(results, True)
+        if head:
             self._stream.seek(0)
             self._stream.write(head)
             self._written = [_Written(0, len(head), None)]
