@@ -245,7 +245,7 @@ def test_no_room(tmp_path: Path, fault: Exception) -> None:
     for first in range(0, 600, 100):
         history.extend(piece(whole, first, first + 100))
     assert drafts(tmp_path)
-    table.layout = table.layout._replace(rows=lambda results: full)
+    table._writer = full
     history.extend(piece(whole, 600, 1000))
     assert not drafts(tmp_path) and history.count == 1000
     assert not table.finish(whole) and [*tmp_path.iterdir()] == []
@@ -255,16 +255,17 @@ def test_an_interruption_while_rows_are_written(tmp_path: Path) -> None:
     """Who adds them does so again: they are there once."""
     history, table = growing(tmp_path / "x.csv")
     whole = results(1000)
-    history.extend(piece(whole, 0, 500))
-    layout = table.layout
+    for first in (0, 250):
+        history.extend(piece(whole, first, first + 250))
+    writer = table._writer
 
-    def interrupted(results: Results) -> Any:
+    def interrupted(*_: Any) -> Any:
         raise KeyboardInterrupt
 
-    table.layout = layout._replace(rows=interrupted)
+    table._writer = interrupted
     with pytest.raises(KeyboardInterrupt):
         history.extend(piece(whole, 500, 1000))
-    table.layout = layout
+    table._writer = writer
     history.extend(piece(whole, 500, 1000))
     assert table.finish(whole) and same(tmp_path / "x.csv", whole)
 

@@ -134,6 +134,7 @@ class GrowingFile:
         self._names: tuple[str, ...] | None = None
         self._chosen: list[int] | None = None
         self._written = [_Written(0, 0, None)]
+        self._writer: Writer | None = None
         self._sent = 0
 
     @property
@@ -204,9 +205,7 @@ class GrowingFile:
         return names if self._chosen is None else tuple(names[k] for k in self._chosen)
 
     def _follow(self, rows: Rows) -> None:
-        assert self.begun is not None
-        results = self.begun(self._own_names())
-        head = b"" if self.count else self.layout.head(results, True)
+        head = self._begin() if not self.count else b""
         if self._draft is None:
             draft = ExitStack()
             self._stream = draft.enter_context(whole_file(self.path, binary=True))
@@ -216,7 +215,8 @@ class GrowingFile:
             self._stream.write(head)
             self._written = [_Written(0, len(head), None)]
         self._stream.seek(self._written[-1].end)
-        write = self.layout.rows(results)
+        write = self._writer
+        assert write is not None
         for time, values in rows.parts(max(1, BLOCK // max(1, len(rows.names))), self.count):
             own = values if self._chosen is None else values[:, self._chosen]
             before, count = self._written[-1].before, self.count + len(time)
@@ -224,6 +224,15 @@ class GrowingFile:
             end, before = self._stream.tell(), _behind(time, before)
             self._written.append(_Written(count, end, before))
             self._send()
+
+    def _begin(self) -> bytes:
+        """What stands before the rows, by what is known now; who writes these is kept, as it may
+        take a while to be made.
+        """
+        assert self.begun is not None
+        results = self.begun(self._own_names())
+        head, self._writer = self.layout.head(results, True), self.layout.rows(results)
+        return head
 
     def _send(self) -> None:
         """Have the disk take what is written, without waiting for it."""
