@@ -143,7 +143,7 @@ def test_more_rows_than_a_matlab_file_holds_are_refused(
     assert main(["solve", str(deck), *flags]) == 2 and not out.exists()
     told = capsys.readouterr().err
     assert "The values take 2.88 GB, and a MATLAB file (version 5) holds 2.15 GB" in told
-    assert "--outputs with fewer columns, fewer STEPS, or -o FILE.nc" in told
+    assert "--outputs with fewer columns, fewer STEPS, or -o FILE.csv" in told
     assert main(["solve", str(deck), *flags, "--outputs", "POINT_MASS/2.x"]) == 4
 
 

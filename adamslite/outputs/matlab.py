@@ -37,7 +37,7 @@ NEW = b"MATLAB 7.3 MAT-file"
 LARGEST = 2**31 - 8
 TOO_LARGE = (
     "The values take {size:.3g} GB, and a MATLAB file (version 5) holds {most:.3g} GB of a "
-    "variable: --outputs with fewer columns, fewer STEPS, or -o FILE.nc, which MATLAB reads, too"
+    "variable: --outputs with fewer columns, fewer STEPS, or -o FILE.csv"
 )
 FAULTS = (ValueError, LookupError, OverflowError, struct.error, zlib.error, MemoryError)
 
