@@ -13,7 +13,7 @@ import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -21,6 +21,7 @@ from adamslite.errors import UsageError
 from adamslite.outputs.whole_files import whole_file
 
 if TYPE_CHECKING:
+    from adamslite.results.filed import Rows
     from adamslite.results.results import Results
 
 #: A file of more numbers is a long one.
@@ -47,21 +48,6 @@ class Layout(NamedTuple):
     head: Callable[[Results, bool], bytes]
     rows: Callable[[Results], Writer]
     tail: Callable[[Results, bool], bytes]
-
-
-class Rows(Protocol):
-    """The rows of a run that goes on."""
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """Names of the columns."""
-
-    @property
-    def count(self) -> int:
-        """How many rows there are."""
-
-    def parts(self, size: int, first: int = 0) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-        """Times and values of so many rows after the other, from one of them on."""
 
 
 def is_long(results: Results) -> bool:
