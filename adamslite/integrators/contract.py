@@ -246,7 +246,9 @@ class Report(Record):
 
 
 class Counts(Record):
-    """How often a run did what."""
+    """How often a run did what; ``tries`` of steps are all of them, those that end at a crossing of
+    a branch and are taken again as well.
+    """
 
     steps: int
     rejected: int
@@ -258,6 +260,7 @@ class Counts(Record):
     records: int
     events: int
     restarts: int
+    tries: int
 
     def add(self, other: Counts) -> None:
         """Count what another run did, too."""

@@ -45,8 +45,8 @@ def end_of_run(P: Problem, C: StepControl) -> int:
         return over
     if P.block.hold:
         return HELD
-    tries = P.count.steps + P.count.rejected + P.count.failures
-    return PAUSED if P.settings.pause > 0 and tries >= P.settings.pause else RUNNING
+    P.count.tries += 1
+    return PAUSED if P.settings.pause > 0 and P.count.tries > P.settings.pause else RUNNING
 
 
 @native
