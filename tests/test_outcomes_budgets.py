@@ -18,6 +18,7 @@ from adamslite.analyses.setup import run_options
 from adamslite.analyses.setup.output_times import spread_times
 from adamslite.analyses.setup.run_options import LEAST_PATIENCE
 from adamslite.cli.main import main
+from adamslite.equations.system import System
 from adamslite.errors import UsageError
 from adamslite.native.worker import Worker
 
@@ -229,6 +230,51 @@ def test_steps_that_become_shorter_in_one_interval_are_watched() -> None:
     run(deck, 1e-6, 1)  # nothing is compiled below
     results = ended_early(deck, 1.0, 1, cpu_limit=0.2)
     assert results.outcome is Outcome.CPU_LIMIT and results.summary["rejected"] > 0
+
+
+# A top at 1e10 times its weight, of which an ERROR of 1e10 follows nothing: its step ends in a zone
+# of the friction that is somewhere else at each try.
+WILD_TOP = (
+    GROUND
+    + """ACCGRAV/KGRAV=-9.81E10
+MARKER/10, PART=1, REULER=0.3,0.5,-0.4
+PART/2, MASS=2, CM=22, IP=0.05,0.06,0.02, REULER=0.4,1.0,0.2, WX=2.0, WY=-1.0, WZ=3.0
+, VX=-0.024752423353393827, VY=-0.39037679200274727, VZ=-0.54497089629059858
+MARKER/2, PART=2
+MARKER/22, PART=2, QP=0,0,0.3
+JOINT/1, SPHERICAL, I=2, J=10
+FRICTION/1, JOINT=1, MU_STATIC=0.5, MU_DYNAMIC=0.3, BALL_RADIUS=0.1, FRICTION_TORQUE_PRELOAD=0
+, STICTION_TRANSITION_VELOCITY=0.1, MAX_STICTION_DEFORMATION=0.01
+END
+"""
+)
+
+
+@pytest.mark.parametrize("error", [1e10, 1e300])
+def test_a_step_is_not_shortened_for_ever(error: float) -> None:
+    """Each try was shorter by a millionth, and none was accepted, rejected or failed."""
+    limits = {"max_steps": 3000, "cpu_limit": 60}
+    results = ended_early(WILD_TOP, 0.1, 3, integrator="ABAM", error=error, **limits)
+    assert results.outcome is Outcome.STEP_LIMIT, results.message
+
+
+@pytest.mark.parametrize("method", ("GSTIFF", "HHT", "RADAU", "ABAM"))
+def test_tries_that_are_shortened_count_towards_a_pause(
+    method: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """They are no steps; each change of the force takes one at least."""
+    deck = POINT + "VFORCE/1, I=2, J_PART=1, FX=IF(DX(2)-0.5: 0, 0, -1)-DX(2)\nEND\n"
+    integrate, systems = System.integrate, []
+
+    def noted(system: System, entry: str) -> int:
+        systems.append(system)
+        return integrate(system, entry)
+
+    monkeypatch.setattr(System, "integrate", noted)
+    done(deck, 10.0, integrator=method)
+    count = systems[-1].count
+    assert count.events > 2
+    assert count.tries >= count.steps + count.rejected + count.failures + count.events
 
 
 def test_an_interval_that_is_paused_goes_on_as_it_would(monkeypatch: pytest.MonkeyPatch) -> None:

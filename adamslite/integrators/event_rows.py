@@ -46,6 +46,7 @@ class Search(Record):
     window_low, window_high   the window that is examined
     past_size            size of the step before, 0 when its rates are not known
     ahead                time from the start of the step to where its early rates reach
+    since, tries         the start of the step, and how many tries from there were looked at
     """
 
     stop_at: int
@@ -81,6 +82,8 @@ class Search(Record):
     past_size: float
     turned: int
     ahead: float
+    since: float
+    tries: int
 
 
 class SensorRow(Record):

@@ -47,6 +47,9 @@ from adamslite.native.translate import native, seldom
 # seen, or this multiple of ERROR.
 CLOSE, CLOSE_ERROR = 1e-6, 0.01
 TIME_ROUND_OFF = 4e-15
+# From so many tries of a step on, each is at most half as long as the one before: where motion is
+# no better than noise, what is found moves along with the end of the step.
+MANY_TRIES, HALF = 32, 0.5
 # The secant root is moved towards the middle by this times the square of the width (k1 of ITP), or
 # this share of the tolerance.
 NUDGE, LEAST_NUDGE = 0.2, 0.1
@@ -61,6 +64,8 @@ def open_search(P: Problem, t: float, h: float) -> None:
     S.found, S.cut, S.size, S.low, S.high = NONE, NONE, h, 0.0, NONE
     S.looks, S.window_low = 0, 0.0
     S.again = S.let_go
+    S.tries = S.tries + 1 if S.since == t else 1
+    S.since = t
     take_up(P)
     if S.hunt and t >= S.hunt_end:
         S.hunt = False
@@ -212,12 +217,13 @@ def starts_there(P: Problem) -> bool:
 @native
 def shorter(P: Problem) -> float:
     """Size of the step that ends just behind the crossing, or before more of a zone is crossed than
-    a share of it.
+    a share of it; half of the size at most after many tries.
     """
     S = P.search
+    most = HALF * S.size if S.tries >= MANY_TRIES else S.size
     if S.again:
         let_go(P)
     if S.cut < 1.0:
-        return S.cut * S.size
+        return min(S.cut * S.size, most)
     S.hunt = True
-    return S.found * S.size + 0.5 * S.tolerance
+    return min(S.found * S.size + 0.5 * S.tolerance, most)
