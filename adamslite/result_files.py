@@ -7,7 +7,6 @@ that was read is written, neither by its name nor through a link.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,7 +15,7 @@ from adamslite.results.adams_options import adams_options
 from adamslite.results.formats import format_of
 
 if TYPE_CHECKING:
-    from adamslite.outputs.row_by_row import GrowingFile
+    from adamslite.outputs.row_by_row import Growing
     from adamslite.results.results import Results
     from adamslite.scene import Scene
 
@@ -74,21 +73,19 @@ def adams_files(scene: Scene, output: str | Path) -> list[Path]:
     return [path for path in paths if not same_file(path, place)]
 
 
-def growing_files(scene: Scene, output: Path, patterns: Sequence[str]) -> dict[Path, GrowingFile]:
+def growing_files(scene: Scene, output: Path, patterns: Sequence[str]) -> dict[Path, Growing]:
     """The results, and the files .req and .res beside them, as far as they can be written while
     the run lasts, with the columns that any of the ``patterns`` means.
     """
     found = {}
     for path in (output, *adams_files(scene, output)):
-        layout = format_of(path).layout
-        if layout and not (path.exists() and not path.is_file()):
-            found[path] = import_module("adamslite.outputs.row_by_row").GrowingFile(
-                layout, path, patterns
-            )
+        begin = format_of(path).growing
+        if begin and not (path.exists() and not path.is_file()):
+            found[path] = begin(path, patterns)
     return found
 
 
-def save(results: Results, path: Path, growing: Mapping[Path, GrowingFile]) -> None:
+def save(results: Results, path: Path, growing: Mapping[Path, Growing]) -> None:
     """Write results to a file, or what is missing in one that has grown."""
     if path not in growing or not growing[path].finish(results):
         results.save(path)

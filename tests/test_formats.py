@@ -161,3 +161,11 @@ def test_a_wrong_suffix_is_answered_with_those_there_are(lines, tmp_path, capsys
 def test_a_suffix_has_one_format(lines) -> None:
     with pytest.raises(ValueError, match=r"\.lines is registered twice"):
         formats.register_format(".lines", "", write_lines)
+
+
+def test_a_file_without_its_folder(tmp_path: Path) -> None:
+    """The fault of the system names the file that was asked for, and nothing else."""
+    path = tmp_path / "none" / "x.csv"
+    with pytest.raises(FileNotFoundError) as caught:
+        Results(time=np.zeros(1), names=("a",), values=np.zeros((1, 1))).save(path)
+    assert str(caught.value) == f"[Errno 2] No such file or directory: '{path}'"

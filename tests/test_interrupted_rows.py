@@ -23,6 +23,7 @@ from adamslite.analyses.session.session_state import SessionState
 from adamslite.cli.main import main as command
 from adamslite.outputs import row_by_row
 from adamslite.outputs.part_file import PartFile
+from adamslite.results import results as results_of_runs
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 
@@ -30,8 +31,8 @@ from adamslite.results.results import Results
 KEEPING = tuple(
     str(Path(*each))
     for each in (
-        ("outputs", "row_by_row.py"), ("outputs", "part_file.py"), ("dynamics", "history.py"),
-        ("session", "session_state.py"),
+        ("outputs", "row_by_row.py"), ("outputs", "parquet.py"), ("outputs", "part_file.py"),
+        ("dynamics", "history.py"), ("session", "session_state.py"),
     )
 )  # fmt: skip
 
@@ -65,10 +66,13 @@ def _soon(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(row_by_row, "SLICE", 50)
     monkeypatch.setattr(row_by_row, "BLOCK", 100)
     monkeypatch.setattr(row_by_row, "SENT", 1000)
+    monkeypatch.setattr(results_of_runs, "BLOCK", 60)
     monkeypatch.setattr(dynamic, "ROOM", 600)
 
 
-@pytest.mark.parametrize("suffix", [".csv", ".nc"])
+@pytest.mark.parametrize(
+    "suffix", [".csv", ".nc", pytest.param(".parquet", marks=pytest.mark.slow)]
+)
 def test_whoever_adds_rows_again(tmp_path: Path, suffix: str) -> None:
     """Blocks are written, given back and written; interrupted at each line of that in turn."""
     path, whole = tmp_path / f"x{suffix}", results(400)

@@ -14,11 +14,13 @@ from unfinished_scenes import written
 
 from adamslite.outputs.part_file import FIRST, RECORD, RECORDS, PartFile
 
-#: A file of results is a long one, with what the run has found behind its rows, from here on.
+#: A file of results is a long one, with what the run has found behind its rows, from here on; those
+#: that are written by blocks have small ones.
 LONG = """\
 import sys
 from adamslite.outputs import row_by_row
-row_by_row.LONG = 3000
+from adamslite.results import results
+row_by_row.LONG = results.BLOCK = 3000
 """
 #: The command line with states from the start on, and small blocks, which writes long files while
 #: the run lasts.
@@ -34,7 +36,7 @@ sys.exit(main())
 #: The command line that writes all files at the end.
 AT_ONCE = f"""\
 {LONG}
-row_by_row.GrowingFile.follow = lambda self, rows: None
+row_by_row.Growing.follow = lambda self, rows: None
 from adamslite.__main__ import main
 sys.exit(main())
 """

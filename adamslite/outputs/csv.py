@@ -18,6 +18,7 @@ import csv
 import io
 import re
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import IO, Any
 
@@ -224,5 +225,5 @@ register_format(
     "a table: comment lines, a row of names, then a row of numbers with all digits per time",
     write,
     read,
-    layout=LAYOUT,
+    growing=partial(row_by_row.GrowingFile, LAYOUT),
 )

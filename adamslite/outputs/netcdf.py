@@ -21,6 +21,7 @@ import json
 import re
 import struct
 from collections.abc import Iterator
+from functools import partial
 from io import BytesIO
 from math import prod
 from pathlib import Path
@@ -335,6 +336,6 @@ register_format(
     "opens in xarray",
     write,
     read,
-    layout=LAYOUT,
+    growing=partial(row_by_row.GrowingFile, LAYOUT),
     need_room=need_room,
 )

@@ -1,45 +1,163 @@
 """Parquet: a column for the time and one for each result; needs pyarrow (extra ``parquet``).
 
 The metadata of a column has its ``unit``; that of the table are the texts of the run, see
-above.
+above.  Rows are in groups of 2^20 numbers; a file of more than one is written while its run lasts.
 """
 
 from __future__ import annotations
 
+from base64 import b64encode
+from functools import partial
 from io import BytesIO
 from pathlib import Path
-from typing import Any
+from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
 
 from adamslite.errors import FormatError, UsageError
 from adamslite.language.text import contents
+from adamslite.native.worker import LOOK, Worker
+from adamslite.outputs import row_by_row
 from adamslite.outputs.whole_files import whole_file
 from adamslite.results.channels import with_units
 from adamslite.results.formats import register_format
-from adamslite.results.results import Results
+from adamslite.results.results import Results, rows_of_block
 from adamslite.results.run_texts import attributes, need_rows, restored
 from adamslite.results.untrusted import need_plausible
 
+if TYPE_CHECKING:
+    from adamslite.results.filed import Rows
+
+#: Where Arrow looks for its own description of a table, which has the metadata of columns.
+SCHEMA = "ARROW:schema"
 MISSING = "files .parquet need pyarrow: pip install 'adamslite[parquet]'"
 
 
 def write(results: Results, path: str | Path) -> None:
     """Write `results` to the file `path`, whole or not at all."""
-    arrow, parquet = _library()
     need_rows(results)
-    fields = [
+    _library()  # what it takes is loaded before there is a draft
+    with whole_file(path, binary=True) as stream:
+        table = _Table(stream, results)
+        for time, values in results.blocks():
+            table.add(_columns(time, values))
+        table.end(results)
+
+
+class _Table:
+    """A table in a file, whose rows are added by groups."""
+
+    def __init__(self, stream: IO[bytes], results: Results) -> None:
+        self.rows, self.schema = 0, _schema(results)
+        # Numbers that hardly come twice gain nothing by a dictionary, which takes time.
+        self._writer = _library()[1].ParquetWriter(
+            stream, self.schema, use_dictionary=False, store_schema=False
+        )
+
+    def add(self, columns: np.ndarray) -> None:
+        """Write the numbers (1 + nc, n) as a group of rows."""
+        arrow = _library()[0]
+        self._writer.write_table(arrow.table(list(map(arrow.array, columns)), schema=self.schema))
+        self.rows += columns.shape[1]
+
+    def end(self, results: Results) -> None:
+        """Write what the file says of the run, and where everything is in it."""
+        texts = attributes(results)
+        schema = self.schema.with_metadata(texts).serialize()
+        self._writer.add_key_value_metadata({**texts, SCHEMA: b64encode(schema)})
+        self._writer.close()
+
+    def give_up(self) -> None:
+        """Nothing of it is wanted: there may be no stream any more in which it would end."""
+        self._writer.is_open = False
+
+
+def _schema(results: Results) -> Any:
+    arrow = _library()[0]
+    return arrow.schema([
         arrow.field(name, arrow.float64(), metadata={"unit": results.channel(name).unit})
         for name in ("time", *results.names)
-    ]
-    schema = arrow.schema(fields, metadata=attributes(results))
-    with whole_file(path, binary=True) as stream:
-        # Numbers that hardly come twice gain nothing by a dictionary, which takes time.
-        writer = parquet.ParquetWriter(stream, schema, use_dictionary=False)
-        for time, values in results.blocks():
-            columns = np.ascontiguousarray(np.vstack([time, values.T]))
-            writer.write_table(arrow.table(list(map(arrow.array, columns)), schema=schema))
-        writer.close()
+    ])  # fmt: skip
+
+
+def _columns(time: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Times (n,) and values (n, nc) as (1 + nc, n)."""
+    return np.ascontiguousarray(np.vstack([time, values.T]))
+
+
+class GrowingTable(row_by_row.Growing):
+    """A file that is written group by group while its run lasts.
+
+    Groups are added in a thread of their own, which no interruption reaches: there would be no way
+    to tell how much of one is written.
+    """
+
+    _table: _Table | None = None
+    _adding: Worker[None] | None = None
+
+    def _forget(self) -> None:
+        super()._forget()
+        self._drop()
+
+    @property
+    def count(self) -> int:
+        self._settle()
+        return self._table.rows if self._table else 0
+
+    def back_to(self, count: int) -> None:
+        if self.count > count:
+            self._drop()
+
+    def finish(self, results: Results) -> bool:
+        self._settle()
+        table, draft = self._table, self._draft
+        if not (table and draft and self._goes_on(table, results)):
+            self.close()
+            return False
+        self._draft = None
+        with draft:
+            for time, values in results.blocks(table.rows):
+                table.add(_columns(time, values))
+            table.end(results)
+        return True
+
+    def _goes_on(self, table: _Table, results: Results) -> bool:
+        """Whether a table begins as that of the results would."""
+        long = row_by_row.is_long(results) and results.count >= table.rows
+        return long and _schema(results).equals(table.schema, check_metadata=True)
+
+    def _follow(self, rows: Rows) -> None:
+        names = self._own_names()
+        group = rows_of_block(len(names))
+        if rows.count - self.count < group:
+            return
+        if self._table is None:
+            self._drop()
+            assert self.begun is not None
+            self._open()
+            self._table = _Table(self._stream, self.begun(names))
+        for time, values in rows.parts(group, self._table.rows):
+            if self._table and len(time) == group:
+                self._adding = Worker(partial(self._table.add, _columns(time, self._own(values))))
+                self._settle()
+                self._send(self._stream.tell())
+
+    def _settle(self) -> None:
+        """Wait for the group that is being added; without it nothing more is."""
+        while self._adding and self._adding.works:
+            self._adding.wait(LOOK)
+        added, self._adding = self._adding, None
+        if added:
+            try:
+                added.result()
+            except (OSError, MemoryError):
+                self.close()
+
+    def _drop(self) -> None:
+        table, self._table = self._table, None
+        if table:
+            table.give_up()
+        super()._drop()
 
 
 def read(path: str | Path) -> Results:
@@ -98,4 +216,5 @@ register_format(
     write,
     read,
     library=_library,
+    growing=GrowingTable,
 )

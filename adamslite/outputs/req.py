@@ -18,6 +18,7 @@ widths are chosen (8 places an integer, 14 a number). Reading goes by blanks, no
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -188,5 +189,5 @@ register_format(
     write,
     read,
     exact=False,
-    layout=LAYOUT,
+    growing=partial(row_by_row.GrowingFile, LAYOUT),
 )

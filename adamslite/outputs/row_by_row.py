@@ -97,36 +97,32 @@ class _GivenUp(Exception):
     """A file that is not wanted any more."""
 
 
-class GrowingFile:
+class Growing:
     """A file of results that is written while their run lasts.
 
     Parameters
     ----------
-    layout : Layout
     path : Path
         It changes when the file is finished.
     patterns : sequence of str
         Of the columns that are written; all are without.
     """
 
-    def __init__(self, layout: Layout, path: Path, patterns: Sequence[str] = ()) -> None:
-        self.layout, self.path, self.patterns = layout, path, patterns
+    _names: tuple[str, ...] | None
+    _chosen: list[int] | None
+    _sent: int
+
+    def __init__(self, path: Path, patterns: Sequence[str] = ()) -> None:
+        self.path, self.patterns = path, patterns
         #: What is known of the results before the first row, by the names of their columns.
         self.begun: Callable[[tuple[str, ...]], Results] | None = None
         self._draft: ExitStack | None = None
         self._forget()
 
-    def _forget(self) -> None:
-        self._names: tuple[str, ...] | None = None
-        self._chosen: list[int] | None = None
-        self._written = [_Written(0, 0, None)]
-        self._writer: Writer | None = None
-        self._sent = 0
-
     @property
     def count(self) -> int:
         """How many rows are written."""
-        return self._written[-1].rows
+        raise NotImplementedError
 
     def follow(self, rows: Rows) -> None:
         """Write further rows, where they are many enough."""
@@ -147,13 +143,83 @@ class GrowingFile:
 
     def back_to(self, count: int) -> None:
         """Rows from this one on have been taken back."""
-        while self.count > count:
-            self._written.pop()
+        raise NotImplementedError
 
     def finish(self, results: Results) -> bool:
         """Write the rest; False when the file has to be written as a whole, as it has not grown, or
         the results are not as they were begun.
         """
+        raise NotImplementedError
+
+    def close(self) -> None:
+        """Give up what there is of it."""
+        self.begun = None
+        self._drop()
+
+    def _forget(self) -> None:
+        """Rows have other columns."""
+        self._names, self._chosen, self._sent = None, None, 0
+
+    def _follow(self, rows: Rows) -> None:
+        raise NotImplementedError
+
+    def _drop(self) -> None:
+        draft, self._draft = self._draft, None
+        if draft:
+            with suppress(OSError, _GivenUp), draft:
+                raise _GivenUp
+
+    def _open(self) -> None:
+        """A draft, which takes the place of the file when it is finished."""
+        draft = ExitStack()
+        self._stream = draft.enter_context(whole_file(self.path, binary=True))
+        self._draft = draft
+
+    def _columns(self, names: tuple[str, ...]) -> list[int] | None:
+        """The columns that are written; None for all."""
+        if not self.patterns:
+            return None
+        from adamslite.results.selection import meant
+
+        return meant(names, self.patterns)
+
+    def _own_names(self) -> tuple[str, ...]:
+        names = self._names or ()
+        return names if self._chosen is None else tuple(names[k] for k in self._chosen)
+
+    def _own(self, values: np.ndarray) -> np.ndarray:
+        return values if self._chosen is None else values[:, self._chosen]
+
+    def _send(self, end: int) -> None:
+        """Have the disk take what is written up to there, without waiting for it."""
+        if end - self._sent >= SENT and hasattr(os, "posix_fadvise"):
+            self._stream.flush()
+            with suppress(OSError):  # it is no more than a wish
+                os.posix_fadvise(self._stream.fileno(), self._sent, 0, os.POSIX_FADV_DONTNEED)
+            self._sent = end
+
+
+class GrowingFile(Growing):
+    """One that is written row by row, as a layout has it."""
+
+    def __init__(self, layout: Layout, path: Path, patterns: Sequence[str] = ()) -> None:
+        super().__init__(path, patterns)
+        self.layout = layout
+
+    def _forget(self) -> None:
+        super()._forget()
+        self._written = [_Written(0, 0, None)]
+        self._writer: Writer | None = None
+
+    @property
+    def count(self) -> int:
+        return self._written[-1].rows
+
+    def back_to(self, count: int) -> None:
+        while self.count > count:
+            self._written.pop()
+
+    def finish(self, results: Results) -> bool:
         head = self.layout.head(results, True) if self._draft and is_long(results) else b""
         own, last = (self._own_names(), self._written[0].end), self._written[-1]
         as_begun = (results.names, len(head)) == own and results.count >= last.rows
@@ -171,31 +237,10 @@ class GrowingFile:
             stream.write(head)
         return True
 
-    def close(self) -> None:
-        """Give up what there is of it."""
-        draft, self._draft, self.begun = self._draft, None, None
-        if draft:
-            with suppress(OSError, _GivenUp), draft:
-                raise _GivenUp
-
-    def _columns(self, names: tuple[str, ...]) -> list[int] | None:
-        """The columns that are written; None for all."""
-        if not self.patterns:
-            return None
-        from adamslite.results.selection import meant
-
-        return meant(names, self.patterns)
-
-    def _own_names(self) -> tuple[str, ...]:
-        names = self._names or ()
-        return names if self._chosen is None else tuple(names[k] for k in self._chosen)
-
     def _follow(self, rows: Rows) -> None:
         head = self._begin() if not self.count else b""
         if self._draft is None:
-            draft = ExitStack()
-            self._stream = draft.enter_context(whole_file(self.path, binary=True))
-            self._draft = draft
+            self._open()
         if head:
             self._stream.seek(0)
             self._stream.write(head)
@@ -204,12 +249,11 @@ class GrowingFile:
         write = self._writer
         assert write is not None
         for time, values in rows.parts(max(1, BLOCK // max(1, len(rows.names))), self.count):
-            own = values if self._chosen is None else values[:, self._chosen]
             before, count = self._written[-1].before, self.count + len(time)
-            self._stream.writelines(write(time, own, before))
+            self._stream.writelines(write(time, self._own(values), before))
             end, before = self._stream.tell(), _behind(time, before)
             self._written.append(_Written(count, end, before))
-            self._send()
+            self._send(end)
 
     def _begin(self) -> bytes:
         """What stands before the rows, by what is known now; who writes these is kept, as it may
@@ -219,12 +263,3 @@ class GrowingFile:
         results = self.begun(self._own_names())
         head, self._writer = self.layout.head(results, True), self.layout.rows(results)
         return head
-
-    def _send(self) -> None:
-        """Have the disk take what is written, without waiting for it."""
-        end = self._written[-1].end
-        if end - self._sent >= SENT and hasattr(os, "posix_fadvise"):
-            self._stream.flush()
-            with suppress(OSError):  # it is no more than a wish
-                os.posix_fadvise(self._stream.fileno(), self._sent, 0, os.POSIX_FADV_DONTNEED)
-            self._sent = end

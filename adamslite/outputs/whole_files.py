@@ -77,7 +77,7 @@ def _named(path: str | Path, draft: Path | None = None) -> Iterator[None]:
         yield
     except OSError as fault:
         if fault.errno is not None and fault.filename in (None, str(draft)):
-            fault.filename, fault.filename2 = str(path), None
+            raise OSError(fault.errno, fault.strerror, str(path)) from None
         raise
 
 

@@ -19,6 +19,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -348,5 +349,5 @@ register_format(
     write,
     read,
     exact=False,
-    layout=LAYOUT,
+    growing=partial(row_by_row.GrowingFile, LAYOUT),
 )

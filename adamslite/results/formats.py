@@ -12,7 +12,7 @@ registered.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
@@ -22,8 +22,8 @@ from typing import Any, TypeAlias
 from adamslite.errors import FormatError, UsageError
 
 Written: TypeAlias = Any
-Layout: TypeAlias = Any
-"""``Results`` and ``Layout``, whose modules find formats here and cannot be imported from here."""
+Growing: TypeAlias = Any
+"""``Results`` and ``Growing``, whose modules find formats here and cannot be imported from here."""
 DEFAULT = ".csv"
 """What a name without a suffix gets; the null device has none."""
 
@@ -34,7 +34,7 @@ class Format:
 
     ``library``: loads what they need beyond the dependencies of the package, or raises a
     UsageError that says what to install.  ``exact``: names, times and numbers come back to the
-    bit.  ``layout``: of a format that is written row by row, as
+    bit.  ``growing(path, patterns)``: a file that can be written while its run lasts, as
     :mod:`adamslite.outputs.row_by_row` has it.  ``need_room(rows, columns)`` raises a UsageError
     where the format does not hold so many.
     """
@@ -45,7 +45,7 @@ class Format:
     read: Callable[[str | Path], Written] | None = None
     library: Callable[[], object] | None = None
     exact: bool = True
-    layout: Layout | None = None
+    growing: Callable[[Path, Sequence[str]], Growing] | None = None
     need_room: Callable[[int, int], None] | None = None
 
     def require_library(self) -> None:
@@ -64,13 +64,13 @@ def register_format(
     read: Callable[[str | Path], Written] | None = None,
     library: Callable[[], object] | None = None,
     exact: bool = True,
-    layout: Layout | None = None,
+    growing: Callable[[Path, Sequence[str]], Growing] | None = None,
     need_room: Callable[[int, int], None] | None = None,
 ) -> None:
     """Enter the format of a suffix, which begins with a dot and is in lower case."""
     if suffix in _FORMATS:
         raise ValueError(f"format {suffix} is registered twice")
-    _FORMATS[suffix] = Format(suffix, what, write, read, library, exact, layout, need_room)
+    _FORMATS[suffix] = Format(suffix, what, write, read, library, exact, growing, need_room)
 
 
 @cache

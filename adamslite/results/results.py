@@ -34,6 +34,11 @@ if TYPE_CHECKING:
 BLOCK = 2**20
 
 
+def rows_of_block(columns: int) -> int:
+    """How many rows of so many columns make a block."""
+    return max(1, BLOCK // max(1, columns))
+
+
 class UnknownChannel(KeyError):
     """A name that no column of the results has."""
 
@@ -144,7 +149,7 @@ class Results:
 
     def blocks(self, first: int = 0) -> Iterator[tuple[np.ndarray, np.ndarray]]:
         """Times (n,) and values (n, nc) of the rows from one on, some at a time."""
-        return self.parts(max(1, BLOCK // max(1, len(self.names))), first)
+        return self.parts(rows_of_block(len(self.names)), first)
 
     def parts(self, size: int, first: int = 0) -> Iterator[tuple[np.ndarray, np.ndarray]]:
         """The same, so many rows at a time."""

@@ -271,12 +271,13 @@ def _named(system: System, code: int) -> Outcome:
 
 def _first_tries(system: System, method: Method, judged: bool) -> int:
     """So many tries of a step as take no longer than a run goes unwatched, without a thread; PAUSED
-    where there are more. Routines of the user may take any time.
+    where there are more. Routines of the user may take any time, and the audit of a step as much
+    as thousands of tries.
     """
-    run = system.settings
+    run, costly = system.settings, system.model.deck.user.used or system.audit.on
     run.pause = int(UNWATCHED / max(system.nz, 1))
     run.pause = min(run.pause, JUDGED) if judged else run.pause
-    if not method.pauses or run.pause == 0 or system.model.deck.user.used:
+    if not method.pauses or run.pause == 0 or costly:
         return contract.PAUSED
     try:
         return system.integrate(method.entry)

@@ -21,7 +21,7 @@ from adamslite.integrators import contract
 if TYPE_CHECKING:
     from adamslite.equations.system import System
     from adamslite.outputs.part_file import Part, PartFile, Stretch
-    from adamslite.outputs.row_by_row import GrowingFile
+    from adamslite.outputs.row_by_row import Growing
 
 #: Time before the first state is written, and between two of them [s], less than five with what it
 #: takes to ask for one and to write it; a run that took longer than the last is not done again.
@@ -65,7 +65,7 @@ class History:
         self.stretches: list[Stretch] = []
         self.part: PartFile | None = None
         #: Files of results that are written while the run lasts.
-        self.growing: Sequence[GrowingFile] = ()
+        self.growing: Sequence[Growing] = ()
 
     def append(self, piece: Piece, static: bool, after_rest: bool) -> None:
         """Add what an analysis wrote; a state both ends and begins two analyses only once.
@@ -222,7 +222,7 @@ class Journal:
     #: Whether a page is drawn of its results, which needs them in memory.
     drawn = False
     #: Files of the results of its first session that are written while it lasts, by their paths.
-    growing: Mapping[Path, GrowingFile] = {}  # noqa: RUF012 - it is not changed
+    growing: Mapping[Path, Growing] = {}  # noqa: RUF012 - it is not changed
 
     def __init__(
         self, path: Path, facts: Callable[[], Mapping[str, Any]], found: PartFile | None = None

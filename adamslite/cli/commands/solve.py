@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from adamslite.analyses.dynamics.history import Journal
     from adamslite.outputs.part_file import PartFile
-    from adamslite.outputs.row_by_row import GrowingFile
+    from adamslite.outputs.row_by_row import Growing
     from adamslite.results.results import Results
     from adamslite.scene import Scene
 
@@ -196,7 +196,7 @@ def _write_page(scene: "Scene", results: "Results", path: Path) -> bool:
 
 
 def _write_adams(
-    results: "Results", paths: Sequence[Path], growing: "Mapping[Path, GrowingFile]"
+    results: "Results", paths: Sequence[Path], growing: "Mapping[Path, Growing]"
 ) -> list[Written]:
     """The files .req and .res that the deck requests."""
     from adamslite.errors import UsageError
@@ -213,7 +213,7 @@ def _write_adams(
 
 
 def _write(
-    results: "Results", output: str, files: Sequence[Path], growing: "Mapping[Path, GrowingFile]"
+    results: "Results", output: str, files: Sequence[Path], growing: "Mapping[Path, Growing]"
 ) -> list[Written]:
     """Write the time histories, and the files of LINEAR commands, whose names are returned."""
     from adamslite.result_files import save
