@@ -28,6 +28,7 @@ from adamslite.deck.names import Marked, Names, to_number
 from adamslite.deck.user_bindings import Bindings
 from adamslite.elements.variable import Variable
 from adamslite.errors import UsageError
+from adamslite.gc_pause import without_collection
 from adamslite.language.abbreviations import match
 from adamslite.language.diagnostics import DeckError, Diagnostic, Source
 from adamslite.language.expression import Node, Num
@@ -260,8 +261,13 @@ def edited(source: Source, path: Path | None, values: Given, given: Bindings) ->
 
 def numbers_of(source: Source, path: Path | None, given: Bindings) -> Numbers:
     """The numbers of the text of a deck; ``path``: its file, which others may lie beside."""
-    reading = MarkedReading(source)
-    deck = unjudged(reading, path, given)
+    with without_collection():
+        reading = MarkedReading(source)
+        return numbers_in(unjudged(reading, path, given), reading)
+
+
+def numbers_in(deck: Deck, reading: MarkedReading) -> Numbers:
+    """The numbers of a deck that was just read."""
     taken = sorted(at for at, (token, *_) in reading.lexemes.items() if _is_taken(token[1]))
     named: dict[str, Named] = {}
     labels = _labels(deck.own)
