@@ -21,7 +21,8 @@ from unfinished_scenes import cranked, lowered, spring, written
 from adamslite.analyses.dynamics import dynamic, history
 from adamslite.analyses.session.session_state import SessionState
 from adamslite.cli.main import main as command
-from adamslite.outputs import row_by_row
+from adamslite.native.worker import Worker
+from adamslite.outputs import parquet, row_by_row
 from adamslite.outputs.part_file import PartFile
 from adamslite.results import results as results_of_runs
 from adamslite.results.outcomes import Outcome
@@ -98,6 +99,33 @@ def test_whoever_adds_rows_again(tmp_path: Path, suffix: str) -> None:
         assert table.finish(whole), number
         assert same(path, whole), number
     assert number > 50
+
+
+def test_a_group_whose_call_is_lost_is_written_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """An interruption between the beginning of a call and the next statement: nobody knows of it,
+    and it writes.
+    """
+    kept, table = growing(tmp_path / "x.parquet")
+    whole, begun = results(400), []
+
+    def lost(call: Any) -> Worker[Any]:
+        begun.append(Worker(call))
+        if len(begun) == 3:
+            raise KeyboardInterrupt
+        return begun[-1]
+
+    monkeypatch.setattr(parquet, "Worker", lost)
+    for first in range(0, 400, 50):
+        before = list(kept.stretches)
+        try:
+            kept.extend(piece(whole, first, first + 50))
+        except KeyboardInterrupt:
+            kept.return_to(before)
+            kept.extend(piece(whole, first, first + 50))
+    assert len(begun) > 5 and table.count >= 300
+    assert table.finish(whole) and same(tmp_path / "x.parquet", whole)
 
 
 SERIES = {"equilibria": lowered(400), "postures": cranked(2, 400)}

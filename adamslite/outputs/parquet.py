@@ -7,9 +7,10 @@ above.  Rows are in groups of 2^20 numbers; a file of more than one is written w
 from __future__ import annotations
 
 from base64 import b64encode
-from functools import partial
+from contextlib import suppress
 from io import BytesIO
 from pathlib import Path
+from threading import Lock
 from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
@@ -39,26 +40,57 @@ def write(results: Results, path: str | Path) -> None:
     _library()  # what it takes is loaded before there is a draft
     with whole_file(path, binary=True) as stream:
         table = _Table(stream, results)
-        for time, values in results.blocks():
-            table.add(_columns(time, values))
-        table.end(results)
+        _complete(table, results)
 
 
 class _Table:
-    """A table in a file, whose rows are added by groups."""
+    """A table in a file, whose rows are added by groups.
+
+    A group is added when it is in the list, whatever becomes of the call: several that write what
+    is there do so in turn, each group once.
+    """
 
     def __init__(self, stream: IO[bytes], results: Results) -> None:
-        self.rows, self.schema = 0, _schema(results)
+        self.schema, self.group = _schema(results), rows_of_block(len(results.names))
+        self._groups: list[np.ndarray | None] = []
+        self._written, self._lock = 0, Lock()
+        self._fault: Exception | None = None
         # Numbers that hardly come twice gain nothing by a dictionary, which takes time.
         self._writer = _library()[1].ParquetWriter(
             stream, self.schema, use_dictionary=False, store_schema=False
         )
 
-    def add(self, columns: np.ndarray) -> None:
-        """Write the numbers (1 + nc, n) as a group of rows."""
+    @property
+    def rows(self) -> int:
+        """How many there are in full groups."""
+        return len(self._groups) * self.group
+
+    @property
+    def waits(self) -> bool:
+        """Whether there are groups that are not written yet."""
+        return self._written < len(self._groups)
+
+    def add(self, time: np.ndarray, values: np.ndarray) -> None:
+        """Times (n,) and values (n, nc) are the next group; only the last may be short."""
+        self._groups.append(np.ascontiguousarray(np.vstack([time, values.T])))
+
+    def write(self) -> None:
+        """Write the groups that wait; a fault is one of all calls."""
+        with self._lock:
+            if self._fault:
+                raise self._fault
+            try:
+                while self.waits:
+                    self._write(self._groups[self._written])
+                    self._groups[self._written] = None
+                    self._written += 1
+            except Exception as fault:
+                self._fault = fault
+                raise
+
+    def _write(self, columns: Any) -> None:
         arrow = _library()[0]
         self._writer.write_table(arrow.table(list(map(arrow.array, columns)), schema=self.schema))
-        self.rows += columns.shape[1]
 
     def end(self, results: Results) -> None:
         """Write what the file says of the run, and where everything is in it."""
@@ -72,6 +104,14 @@ class _Table:
         self._writer.is_open = False
 
 
+def _complete(table: _Table, results: Results) -> None:
+    """Write all rows of the results that a table does not have, and its end."""
+    for time, values in results.blocks(table.rows):
+        table.add(time, values)
+        table.write()
+    table.end(results)
+
+
 def _schema(results: Results) -> Any:
     arrow = _library()[0]
     return arrow.schema([
@@ -80,20 +120,14 @@ def _schema(results: Results) -> Any:
     ])  # fmt: skip
 
 
-def _columns(time: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Times (n,) and values (n, nc) as (1 + nc, n)."""
-    return np.ascontiguousarray(np.vstack([time, values.T]))
-
-
 class GrowingTable(row_by_row.Growing):
     """A file that is written group by group while its run lasts.
 
-    Groups are added in a thread of their own, which no interruption reaches: there would be no way
+    Groups are written in a thread of its own, which no interruption reaches: there would be no way
     to tell how much of one is written.
     """
 
     _table: _Table | None = None
-    _adding: Worker[None] | None = None
 
     def _forget(self) -> None:
         super()._forget()
@@ -101,7 +135,6 @@ class GrowingTable(row_by_row.Growing):
 
     @property
     def count(self) -> int:
-        self._settle()
         return self._table.rows if self._table else 0
 
     def back_to(self, count: int) -> None:
@@ -109,21 +142,20 @@ class GrowingTable(row_by_row.Growing):
             self._drop()
 
     def finish(self, results: Results) -> bool:
-        self._settle()
+        with suppress(OSError, MemoryError):
+            self._settle()
         table, draft = self._table, self._draft
         if not (table and draft and self._goes_on(table, results)):
             self.close()
             return False
         self._draft = None
         with draft:
-            for time, values in results.blocks(table.rows):
-                table.add(_columns(time, values))
-            table.end(results)
+            _complete(table, results)
         return True
 
     def _goes_on(self, table: _Table, results: Results) -> bool:
-        """Whether a table begins as that of the results would."""
-        long = row_by_row.is_long(results) and results.count >= table.rows
+        """Whether a table has the first rows of the results, and begins as theirs would."""
+        long = row_by_row.is_long(results) and results.count >= table.rows and not table.waits
         return long and _schema(results).equals(table.schema, check_metadata=True)
 
     def _follow(self, rows: Rows) -> None:
@@ -132,26 +164,23 @@ class GrowingTable(row_by_row.Growing):
         if rows.count - self.count < group:
             return
         if self._table is None:
-            self._drop()
+            super()._drop()
             assert self.begun is not None
             self._open()
             self._table = _Table(self._stream, self.begun(names))
-        for time, values in rows.parts(group, self._table.rows):
-            if self._table and len(time) == group:
-                self._adding = Worker(partial(self._table.add, _columns(time, self._own(values))))
+        for time, values in rows.parts(group, self.count):
+            if len(time) == group:
+                self._table.add(time, self._own(values))
                 self._settle()
                 self._send(self._stream.tell())
 
     def _settle(self) -> None:
-        """Wait for the group that is being added; without it nothing more is."""
-        while self._adding and self._adding.works:
-            self._adding.wait(LOOK)
-        added, self._adding = self._adding, None
-        if added:
-            try:
-                added.result()
-            except (OSError, MemoryError):
-                self.close()
+        """Wait until all groups are written."""
+        while self._table and self._table.waits:
+            writing = Worker(self._table.write)
+            while writing.works:
+                writing.wait(LOOK)
+            writing.result()
 
     def _drop(self) -> None:
         table, self._table = self._table, None

@@ -171,7 +171,7 @@ class Growing:
 
     def _open(self) -> None:
         """A draft, which takes the place of the file when it is finished."""
-        draft = ExitStack()
+        draft, self._sent = ExitStack(), 0
         self._stream = draft.enter_context(whole_file(self.path, binary=True))
         self._draft = draft
 
