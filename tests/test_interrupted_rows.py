@@ -5,6 +5,7 @@ Analyses that solve their output times in turn keep their rows in the thread tha
 
 from __future__ import annotations
 
+import gc
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -126,6 +127,42 @@ def test_a_group_whose_call_is_lost_is_written_once(
             kept.extend(piece(whole, first, first + 50))
     assert len(begun) > 5 and table.count >= 300
     assert table.finish(whole) and same(tmp_path / "x.parquet", whole)
+
+
+@pytest.mark.parametrize("part", ["_write", "end"])
+@pytest.mark.parametrize("fault", [KeyboardInterrupt, MemoryError, OSError], ids=str)
+@pytest.mark.parametrize("grown", [True, False])
+def test_a_table_that_is_not_ended_is_given_up(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    grown: bool,
+    fault: type[BaseException],
+    part: str,
+) -> None:
+    """Arrow would end it when it is collected, in a stream that is closed, and say so with a
+    traceback.
+    """
+    kept, table = growing(tmp_path / "x.parquet")
+    whole, ignored = results(400), []
+    for first in range(0, 400, 50):
+        kept.extend(piece(whole, first, first + 50))
+
+    def failing(*_: Any) -> None:
+        raise fault
+
+    monkeypatch.setattr(sys, "unraisablehook", ignored.append)
+    monkeypatch.setattr(parquet._Table, part, failing)
+    met = False
+    try:
+        if grown:
+            table.finish(whole)
+        else:
+            whole.save(tmp_path / "y.parquet")
+    except fault:
+        met = True
+    table.close()
+    gc.collect()
+    assert met and not ignored and [*tmp_path.iterdir()] == []
 
 
 SERIES = {"equilibria": lowered(400), "postures": cranked(2, 400)}

@@ -106,10 +106,14 @@ class _Table:
 
 def _complete(table: _Table, results: Results) -> None:
     """Write all rows of the results that a table does not have, and its end."""
-    for time, values in results.blocks(table.rows):
-        table.add(time, values)
-        table.write()
-    table.end(results)
+    try:
+        for time, values in results.blocks(table.rows):
+            table.add(time, values)
+            table.write()
+        table.end(results)
+    except BaseException:
+        table.give_up()
+        raise
 
 
 def _schema(results: Results) -> Any:
