@@ -178,6 +178,7 @@ def test_an_interrupt_within_the_first_tries_is_heeded(
         return code
 
     monkeypatch.setattr(dynamic, "UNWATCHED", unwatched)
+    monkeypatch.setattr(dynamic, "FEW", 2**40)
     monkeypatch.setattr(System, "integrate", interrupted)
     assert run(SPRING, "ABAM", error=1e-9).outcome is Outcome.INTERRUPTED
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import partial
+from time import thread_time
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,7 +16,7 @@ from adamslite.analyses.clock.step_limits import timetable
 from adamslite.analyses.dynamics.sensors import EQUAL, require_changing, require_none
 from adamslite.analyses.dynamics.step_limits import StepLimits
 from adamslite.analyses.initial.conditions import without_accelerations
-from adamslite.analyses.setup.run_options import Budget
+from adamslite.analyses.setup.run_options import MOST_COUNTED, Budget
 from adamslite.equations.engine import ints
 from adamslite.integrators import contract
 from adamslite.integrators.contract import SPECTRUM
@@ -35,8 +36,9 @@ if TYPE_CHECKING:
 STEPS_PER_OUTPUT = 20.0
 # Share of a time that its round-off may be.
 ROUND_OFF = 1e-14
-# Time between two looks at a run [s], and unknowns times tries of a step that take less.
+# Time between two looks at a run [s], and unknowns times tries of a step that usually take less.
 WATCH_INTERVAL, UNWATCHED = 0.1, 50_000.0
+FEW, MORE = 4, 8  # tries that say how long one takes, and how many times as many say it next
 # Numbers that the records of a run have room for, where they go elsewhere block by block.
 ROOM = 2**19
 # Codes after which a method is called again.
@@ -271,16 +273,19 @@ def _named(system: System, code: int) -> Outcome:
 
 def _first_tries(system: System, method: Method, judged: bool) -> int:
     """So many tries of a step as take no longer than a run goes unwatched, without a thread; PAUSED
-    where there are more. Routines of the user may take any time, and the audit of a step as much
-    as thousands of tries.
+    where there are more. Routines of the user take any time, audits that of thousands of tries.
     """
     run, costly = system.settings, system.model.deck.user.used or system.audit.on
-    run.pause = int(UNWATCHED / max(system.nz, 1))
-    run.pause = min(run.pause, JUDGED) if judged else run.pause
-    if not method.pauses or run.pause == 0 or costly:
+    most = min(int(UNWATCHED / max(system.nz, 1)), JUDGED if judged else MOST_COUNTED)
+    run.pause, began = min(most, FEW), thread_time()
+    if not method.pauses or most == 0 or costly:
         return contract.PAUSED
     try:
-        return system.integrate(method.entry)
+        while (code := system.integrate(method.entry)) == contract.PAUSED and run.pause < most:
+            if (thread_time() - began) * MORE > WATCH_INTERVAL:
+                break
+            run.pause = min(most, run.pause * MORE)
+        return code
     except KeyboardInterrupt:
         run.stop = True
     return contract.PAUSED
@@ -323,9 +328,10 @@ def _watched(
 ) -> int:
     """Run; what is not over soon in a thread of its own, with a look at it from time to time."""
     code = outlet.begin() if outlet else None
-    if code is None:
-        code = _first_tries(system, method, judged)
     unseen = progress is None and budget.cpu is None and not is_interrupted_here()
+    system.settings.pause = 0
+    if code is None:
+        code = contract.PAUSED if unseen else _first_tries(system, method, judged)
     if code in UNFINISHED and unseen:
         return _resumed(system, method, judged, outlet)
     if code not in UNFINISHED and not (progress and progress.is_due()):
@@ -367,23 +373,19 @@ def _watch(
                 outlet.look()
                 _say(progress, outlet.journal.note())
             if budget.out_of_time:
-                outlet.expire() if outlet else _stop(system)
+                outlet.expire() if outlet else setattr(system.settings, "stop", True)
             elif progress and running.works:
                 progress.watch(look())
         except KeyboardInterrupt:
             rows = int(system.count.records) + (outlet.history.count if outlet else 0)
             if progress and rows * system.nw > MANY:
                 progress.say(ENDING)
-            outlet.interrupt() if outlet else _stop(system)
+            outlet.interrupt() if outlet else setattr(system.settings, "stop", True)
 
 
 def _say(progress: Progress | None, sentence: str) -> None:
     if progress and sentence:
         progress.say(sentence)
-
-
-def _stop(system: System) -> None:
-    system.settings.stop = True
 
 
 def _state(system: System, limits: StepLimits, start: float, end: float) -> RunState:
