@@ -23,6 +23,18 @@ class Overspent(Exception):
     """A call has gone on for longer than its caller allows."""
 
 
+def require_time(over: Over) -> None:
+    """Go on, unless something is ``over``.
+
+    Raises
+    ------
+    Overspent
+        When it is.
+    """
+    if over is not None and over():
+        raise Overspent
+
+
 class _Held:
     """What a thread holds as long as there is one."""
 
@@ -111,8 +123,7 @@ def interruptible(
     try:
         while running.works:
             running.wait(LOOK)
-            if over is not None and over():
-                raise Overspent
+            require_time(over)
     except (KeyboardInterrupt, Overspent) as asked:
         fault = asked
     if fault is None:

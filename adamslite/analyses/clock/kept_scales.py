@@ -15,9 +15,11 @@ from adamslite.analyses.clock.changes import Found, time_scales
 from adamslite.caching.entries import recall_json
 from adamslite.caching.sources import version_of
 from adamslite.native import compiler
+from adamslite.native.worker import require_time
 
 if TYPE_CHECKING:
     from adamslite.analyses.clock.clock import Program
+    from adamslite.native.worker import Over
 
 #: Instructions of all programs from which on to keep is faster than to find again.
 WORTH = 2000
@@ -25,12 +27,18 @@ PLAIN = (str, int, float)
 
 
 def all_time_scales(
-    programs: Sequence[Program], start: float, end: float, longest: float
+    programs: Sequence[Program], start: float, end: float, longest: float, over: Over = None
 ) -> list[Found]:
-    """What :func:`time_scales` finds of each program."""
+    """What :func:`time_scales` finds of each program; Overspent is raised when it was ``over``
+    before.
+    """
+
+    def scales(program: Program) -> Found:
+        require_time(over)
+        return time_scales(program, start, end, longest)
 
     def found() -> list[Found]:
-        return [time_scales(program, start, end, longest) for program in programs]
+        return [scales(program) for program in programs]
 
     words = [word for program in programs for instruction in program for word in instruction]
     if sum(map(len, programs)) < WORTH or not all(isinstance(word, PLAIN) for word in words):

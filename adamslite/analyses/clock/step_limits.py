@@ -80,7 +80,7 @@ def timetable(
     found, overfull = edges(system, clock, times, over)
     edged, corners, spans, paced = [found], [], [np.zeros((0, 3))], []
     curves, slopes = clock.programs("curves"), clock.programs("slopes")
-    known = all_time_scales([*curves, *slopes], start, end, SHORT * longest)
+    known = all_time_scales([*curves, *slopes], start, end, SHORT * longest, over)
     for statement, curve in zip(curves.values(), known, strict=False):
         edged.append(curve.times)
         if not curve.whole or _crossings(curve.spans) * SEEN > MOST:

@@ -19,7 +19,7 @@ from adamslite.analyses.clock.changes import NOISE, around_changes
 from adamslite.analyses.clock.clock import Clock
 from adamslite.analyses.clock.enclosures import enclose
 from adamslite.integrators.contract import CLOCK, LEAST_STEP
-from adamslite.native.worker import Overspent
+from adamslite.native.worker import require_time
 from adamslite.symbolic.guards import FLOOR, STRICT
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ def edges(
     if not system.guarded["clock"] or not end > start:
         return np.array([end]), []
     guards, floors = clock.programs("guards"), clock.programs("floors")
-    found, overfull = _grid(guards, floors, start, end)
+    found, overfull = _grid(guards, floors, start, end, over)
 
     def stops() -> np.ndarray:
         return merged(_lasting(system, _changes(system, found, over), start, end), times)
@@ -91,7 +91,7 @@ def same_time(start: float, end: float) -> float:
 
 
 def _grid(
-    guards: Programs, floors: Programs, start: float, end: float
+    guards: Programs, floors: Programs, start: float, end: float, over: Over = None
 ) -> tuple[np.ndarray, list[Statement]]:
     """Times so dense that every guard changes once at most between two of them, and the
     statements of which that could not be reached.
@@ -99,6 +99,7 @@ def _grid(
     times, overfull, passed = [np.array([start, end])], [], 0.0
     for floor in (False, True):
         for program, statement in (floors if floor else guards).items():
+            require_time(over)
             found = around_changes(program, start, end, floor)
             times.append(found.times)
             passed += _passed(program, found.times) if floor else 0.0
@@ -148,8 +149,7 @@ def _changes(system: System, grid: np.ndarray, over: Over = None) -> np.ndarray:
             break  # the rest is reported as too many
         halves: list[_Spans] = []
         while blocks:
-            if over is not None and over():
-                raise Overspent
+            require_time(over)
             half = _halved(system, blocks.pop())
             halves += [half.of(slice(at, at + BLOCK)) for at in range(0, len(half.below), BLOCK)]
         blocks = halves
