@@ -35,3 +35,25 @@ def test_tries_that_take_long_are_watched_after_a_few(
     assert (threads[-1] is not threading.main_thread()) == watched
     if watched:
         assert set(threads[:-1]) == {threading.main_thread()} and pauses == (dynamic.FEW, 0)
+
+
+@pytest.mark.parametrize("method", ("HHT", "ABAM"))
+def test_a_pause_is_no_try(method: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Or AUTO would look at a run after as many tries as the machine left it pauses."""
+    integrate, systems = System.integrate, []
+
+    def noted(system: System, entry: str) -> int:
+        systems.append(system)
+        return integrate(system, entry)
+
+    monkeypatch.setattr(System, "integrate", noted)
+    counts = []
+    for unwatched in (0.0, 1e9):
+        monkeypatch.setattr(dynamic, "UNWATCHED", unwatched)
+        before = len(systems)
+        done(
+            POINT + "VFORCE/1, I=2, J_PART=1, FX=-DX(2)\nEND\n", 50.0, integrator=method, hmax=0.01
+        )
+        counts.append((len(systems) - before, int(systems[-1].count.tries)))
+    (calls, tries), (more, same) = counts
+    assert calls == 1 < more and tries == same > 1000

@@ -45,8 +45,10 @@ def end_of_run(P: Problem, C: StepControl) -> int:
         return over
     if P.block.hold:
         return HELD
+    if P.settings.pause > 0 and P.count.tries >= P.settings.pause:
+        return PAUSED
     P.count.tries += 1
-    return PAUSED if P.settings.pause > 0 and P.count.tries > P.settings.pause else RUNNING
+    return RUNNING
 
 
 @native
