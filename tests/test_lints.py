@@ -219,6 +219,31 @@ def test_contradictions_are_reported_with_both_sides(
     assert f"combines {first}, and {second}, which" in one.message
 
 
+def test_dimensions_of_variables_that_refer_to_each_other_everywhere() -> None:
+    """200 with 199 terms each were 40 000 calls within each other; what goes round is unknown."""
+    names = range(10, 210)
+    sums = ("\n, +".join(f"VARVAL({k})" for k in names if k != n) for n in names)
+    circle = "".join(
+        f"VARIABLE/{n}, FUNCTION=DX(2)+0.001*(\n, {sum})\n"
+        for n, sum in zip(names, sums, strict=True)
+    )
+    force = "SFORCE/1, ROTATIONAL, I=2, J=1, FUNCTION={}\n"
+    assert told(f"{START}{circle}{force.format('VARVAL(10)')}") == []
+
+
+@pytest.mark.parametrize(("rate", "found"), [("VX(2)", "a velocity"), ("DX(2)", "")])
+def test_a_dimension_at_the_end_of_a_chain(rate: str, found: str) -> None:
+    """Each link is the sum of 100 links before it, the deepest first."""
+    links = "".join(
+        f"VARIABLE/{n}, FUNCTION=" + "\n, +".join(f"VARVAL({n - 1})" for _ in range(100)) + "\n"
+        for n in range(12, 112)
+    )
+    force = "SFORCE/1, ROTATIONAL, I=2, J=1, FUNCTION=1\n"
+    chain = f"VARIABLE/11, FUNCTION={rate}\n{links}VARIABLE/1, FUNCTION=DX(2)+VARVAL(111)\n"
+    messages = [each.message for each in told(f"{START}{force}{chain}")]
+    assert [found in each for each in messages] == ([True] if found else [])
+
+
 # ---- the rest ----------------------------------------------------------------------------------
 
 

@@ -29,6 +29,7 @@ from adamslite.language.expression import (
     Op,
     Ref,
     Time,
+    calls,
     fold,
     to_text,
     walk,
@@ -72,6 +73,8 @@ ALIKE: dict[str, tuple[tuple[int, ...], tuple[int, ...]]] = {
 # Stops: the way, its rate, and further ways.
 STOPS = {"IMPACT": (2, 6), "BISTOP": (2, 3, 7)}
 LONGEST_TEXT = 40
+# The value of a VARIABLE, and its rate.
+VALUES = ("VARVAL", "DDT")
 
 
 class Contradiction(NamedTuple):
@@ -106,6 +109,7 @@ class Reader:
         self.name = ""
         """The function, or TIME, that the second part begins with."""
         self._variables: dict[Key, Dimension | None] = {}
+        self._begun: set[Key] = set()
 
     def dimension(self, node: Node) -> Dimension | None:
         """The dimension of an expression; None where numbers, or the unknown, hide it."""
@@ -149,7 +153,7 @@ class Reader:
             return FORCE if NET[call.name] in FORCES else TORQUE
         if call.name in MEASURES.values():
             return _of_component(call)
-        if call.name in ("VARVAL", "DDT"):
+        if call.name in VALUES:
             ref = call.args[0]
             found = self._variable(ref.id) if isinstance(ref, Ref) else None
             rate = found and call.name == "DDT"
@@ -182,15 +186,38 @@ class Reader:
             )
 
     def _variable(self, key: Key) -> Dimension | None:
-        if key not in self._variables:
-            self._variables[key] = None  # what depends on itself is unknown
-            variable = self.deck.find(Variable, key)
-            before, self.found = self.found, None
-            if variable is not None:
-                found = self.dimension(variable.function)
-                self._variables[key] = None if self.found else found
-            self.found = before
-        return self._variables[key]
+        """The dimension of a VARIABLE; what depends on itself is unknown."""
+        if key not in self._begun:
+            self._work_out(key)
+        return self._variables.get(key)
+
+    def _work_out(self, key: Key) -> None:
+        """Find what a VARIABLE refers to, then itself, one behind the other: chains are long."""
+        waiting = [key]
+        while waiting:
+            key = waiting[-1]
+            further = [] if key in self._begun else self._referred(key)
+            self._begun.add(key)
+            if not further:
+                waiting.pop()
+                if key not in self._variables:
+                    self._variables[key] = self._of_variable(key)
+            waiting += further
+
+    def _referred(self, key: Key) -> list[Key]:
+        """The VARIABLEs to which one refers and that are not begun yet."""
+        variable = self.deck.find(Variable, key)
+        refs = (call.args[0] for call in calls(variable.function, *VALUES)) if variable else ()
+        return [ref.id for ref in refs if isinstance(ref, Ref) and ref.id not in self._begun]
+
+    def _of_variable(self, key: Key) -> Dimension | None:
+        variable = self.deck.find(Variable, key)
+        if variable is None:
+            return None
+        before, self.found = (self.found, self.name), None
+        dimension = self.dimension(variable.function)
+        contradicts, (self.found, self.name) = self.found is not None, before
+        return None if contradicts else dimension
 
 
 def _of_component(call: Call) -> Dimension | None:
