@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import threading
+import time as clock
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -238,12 +239,17 @@ def test_a_run_that_brings_its_worker_down_fails_alone(tmp_path: Path, monkeypat
 
     def law(parameters: Any, time: float) -> float:
         if parameters[0] == 2:
+            clock.sleep(3.0)  # Dask does not replace a worker that ends while it is begun
             os._exit(9)
         return float(parameters[0])
 
-    with distributed.LocalCluster(
-        n_workers=1, threads_per_worker=1, dashboard_address=None, local_directory=str(tmp_path)
-    ) as made:  # one worker: what waits for it is lost each time, too
+    dask = pytest.importorskip("dask")
+    with (
+        dask.config.set({"distributed.scheduler.allowed-failures": 0}),
+        distributed.LocalCluster(
+            n_workers=1, threads_per_worker=1, dashboard_address=None, local_directory=str(tmp_path)
+        ) as made,
+    ):  # one worker: what waits for it is lost each time, too
         found = al.sweep(
             deck, "VARIABLE/1.FUNCTION=1:8:8", measures=["max REQUEST/1.F2"],
             user={"VARIABLE/1": law}, client=made.scheduler_address,
