@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING, overload
 from adamslite.api.inputs import User
 from adamslite.deck.deck import Deck
 from adamslite.errors import UsageError
-from adamslite.gc_pause import without_collection
 from adamslite.reading.numbers import Given, Named, numbers_of
-from adamslite.reading.read import read_numbers
+from adamslite.reading.read import read
 from adamslite.variation import decks
 
 if TYPE_CHECKING:  # numpy is not needed to list names
@@ -97,15 +96,10 @@ def names(
     UsageError
         When no name fits a pattern.
     """
-    with without_collection():
-        return _names(deck, patterns, user)
-
-
-def _names(deck: Deck | str | os.PathLike[str], patterns: Iterable[str], user: User) -> NumberTable:
-    if isinstance(deck, Deck):
-        found = numbers_of(deck.source, deck.path, deck.user)
-    else:
-        found = read_numbers(deck if isinstance(deck, str) else Path(deck), user)
+    if not isinstance(deck, Deck):
+        # Not by the reading that notes places: of a deck with mistakes nothing is listed.
+        deck = read(deck if isinstance(deck, str) else Path(deck), user)
+    found = numbers_of(deck.source, deck.path, deck.user)
     short = {each.name: str(each.statement.id) for each in found.parameters.values()}
     table = NumberTable(found.named.values(), {k: v for k, v in short.items() if not v.isdigit()})
     wanted = [patterns] if isinstance(patterns, str) else [*patterns]

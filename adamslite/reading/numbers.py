@@ -263,11 +263,10 @@ def numbers_of(source: Source, path: Path | None, given: Bindings) -> Numbers:
     """The numbers of the text of a deck; ``path``: its file, which others may lie beside."""
     with without_collection():
         reading = MarkedReading(source)
-        return numbers_in(unjudged(reading, path, given), reading)
+        return _numbers_in(unjudged(reading, path, given), reading)
 
 
-def numbers_in(deck: Deck, reading: MarkedReading) -> Numbers:
-    """The numbers of a deck that was just read."""
+def _numbers_in(deck: Deck, reading: MarkedReading) -> Numbers:
     taken = sorted(at for at, (token, *_) in reading.lexemes.items() if _is_taken(token[1]))
     named: dict[str, Named] = {}
     labels = _labels(deck.own)

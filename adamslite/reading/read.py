@@ -32,7 +32,7 @@ from adamslite.language.statement import Statement
 from adamslite.language.text import MOST, NamedText, contents, decoded, text_of
 from adamslite.reading.half_read import further_mistakes
 from adamslite.reading.numbers import Given as Values
-from adamslite.reading.numbers import MarkedReading, Numbers, edited, numbers_in
+from adamslite.reading.numbers import edited
 from adamslite.reading.statement_reader import Reading
 from adamslite.reading.unjudged import bound, unjudged
 
@@ -78,20 +78,11 @@ def read(
     """
 
     given = bindings(user)
-    text, path = _loaded(source)
+    text, path = _load(source)
+    name = source.name if isinstance(source, NamedText) else str(path or "<text>")
     if values:
-        text = Source(edited(text, path, values, given), text.file)
-    return read_by(Reading(text, Names(), "deck"), path, given)
-
-
-def read_numbers(
-    source: str | Path, user: Mapping[str, Given] | Iterable[str] | None = None
-) -> Numbers:
-    """The numbers of a deck by name; parameters and errors as for :func:`read`."""
-    text, path = _loaded(source)
-    reading = MarkedReading(text)
-    with without_collection():
-        return numbers_in(read_by(reading, path, bindings(user)), reading)
+        text = edited(Source(text, name), path, values, given)
+    return read_by(Reading(Source(text, name), Names(), "deck"), path, given)
 
 
 def read_by(reading: Reading, path: Path | None, given: Bindings) -> Deck:
@@ -185,13 +176,6 @@ def _judged(
     if any(diagnostic.is_error for diagnostic in diagnostics):
         raise DeckError(judged(deck.source, diagnostics, complete=False), deck)
     return tuple(diagnostics)
-
-
-def _loaded(source: str | Path) -> tuple[Source, Path | None]:
-    """The text of a deck with the name that messages give it, and the file it came from."""
-    text, path = _load(source)
-    name = source.name if isinstance(source, NamedText) else str(path or "<text>")
-    return Source(text, name), path
 
 
 def _load(source: str | Path) -> tuple[str, Path | None]:
