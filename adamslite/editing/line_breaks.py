@@ -13,6 +13,9 @@ CONTINUED = ", "
 INSIDE = ",     "
 """How a line begins that continues a statement, or an expression inside one."""
 
+NARROW = WIDTH - len(INSIDE)
+"""A line that is not wider fits, whatever it begins with."""
+
 
 def filled(pieces: list[Piece], source: str) -> list[list[Piece]]:
     """The pieces of each line: one line if they fit, else each expression begins a line.
@@ -23,18 +26,23 @@ def filled(pieces: list[Piece], source: str) -> list[list[Piece]]:
         return [[*pieces]]
     lines: list[list[Piece]] = []
     line: list[Piece] = []
+    width, breaks = 0, False  # of the line, without what it begins with
     for before, piece in zip(pieces[:1] + pieces, pieces, strict=False):
         row = piece.depth == 1 and "\n" in source[before.end : piece.start]
         if row or (piece.expression and piece.depth < NEVER):
             lines.append(line)
-            line = []
+            line, width, breaks = [], 0, False
+        breaks = breaks or bool(line and piece.depth < NEVER)
         line.append(piece)
-        while at := _break(line, bool(lines)):
+        width += len(piece.glue) + len(piece.text)
+        while breaks and width > NARROW and (at := _break(line, bool(lines))):
             if _closes_up(lines, line, at):
                 lines[-1] = lines[-1] + line[:at]
             else:
                 lines.append(line[:at])
             line = line[at:]
+            width = sum(len(each.glue) + len(each.text) for each in line)
+            breaks = any(each.depth < NEVER for each in line[1:])
     return [*lines, line]
 
 

@@ -58,6 +58,10 @@ class Given(NamedTuple):
         return self.kind in TEXTS
 
 
+#: Words of which the meaning is remembered.
+MOST_WORDS = 1000
+
+
 @dataclass
 class Written:
     """A statement as written; ``given`` is None where it cannot be told from mistakes."""
@@ -117,7 +121,7 @@ def outline(text: str, place: str) -> Iterator[Written]:
 
 def statements(text: str, start: int, end: int, place: str) -> Iterator[Written]:
     """The statements in a stretch of a text, up to the END."""
-    table = known_keywords(place)
+    table = _Remembered(known_keywords(place))
     for logical in join(scan(text[:end], start), ampersand=place == "command"):
         written = _written(logical, text, table)
         yield written
@@ -125,11 +129,27 @@ def statements(text: str, start: int, end: int, place: str) -> Iterator[Written]
             return
 
 
-def _written(logical: Logical, text: str, table: Mapping[str, type[Statement] | str]) -> Written:
+class _Remembered:
+    """Keywords that remember what words mean, up to so many of these."""
+
+    def __init__(self, table: Mapping[str, type[Statement] | str]) -> None:
+        self._table = table
+        self._known: dict[str, type[Statement] | str | Ambiguous | None] = {}
+
+    def meaning(self, word: str) -> type[Statement] | str | Ambiguous | None:
+        """What :func:`match` finds."""
+        if word not in self._known:
+            if len(self._known) >= MOST_WORDS:
+                self._known.clear()
+            self._known[word] = match(PREFERRED.get(word, word), self._table)
+        return self._known[word]
+
+
+def _written(logical: Logical, text: str, table: _Remembered) -> Written:
     written = Written(logical.tokens, logical.name, source=text)
     syntax, mistakes = statement_syntax(logical)
     keyword = spelled(logical.tokens[0][1]).upper()
-    found = match(PREFERRED.get(keyword, keyword), table)
+    found = table.meaning(keyword)
     if isinstance(found, type):
         written.cls = found
         if len(logical.tokens) == 1:
