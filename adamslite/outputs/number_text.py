@@ -14,8 +14,9 @@ import numpy as np
 
 # Below this number of values the import would take longer than it saves.
 MANY = 20_000
-# Numbers at a time: a text of some megabytes, whatever the width of the table.
-BLOCK = 2**17
+# Numbers at a time, whatever the width of the table: a text of some hundred kilobytes. Larger ones
+# are not written faster, and the copies that are made of them leave gaps in the heap.
+BLOCK = 2**14
 # What may be looked at behind the last number.
 BEHIND = b"\0" * 8
 # Numbers whose spelling differs between programs.

@@ -33,7 +33,7 @@ LIMITED = (contract.INTERRUPTED, contract.STEP_LIMIT, contract.CREEPING)
 #: Numbers of results that are kept in memory.
 MOST = 2**21
 # Numbers of a block: what is found block by block is the same wherever the rows are kept.
-BLOCK = 2**20
+BLOCK = 2**18
 
 
 @dataclass(frozen=True, eq=False)
