@@ -13,18 +13,21 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from itertools import groupby, pairwise
+from itertools import groupby, pairwise, zip_longest
 from typing import NamedTuple
 
 from adamslite.editing.line_breaks import filled, joined, kept
 from adamslite.editing.outline import Written, head_end, outline
 from adamslite.editing.pieces import pieces
+from adamslite.gc_pause import without_collection
 
 COMMENT = re.compile(r"![^\n]*")
 IGNORING = re.compile(r"adamslite:", re.IGNORECASE)
 COMMENT_OR_SIGN = re.compile(r"![^\n]*|[^\s;]")
 APART = "  "
 """What is at least between a statement and the comment behind it."""
+MOST_UNREAD = 100_000
+"""Words and signs of statements that cannot be read: a text with more is no deck."""
 
 
 class Line(NamedTuple):
@@ -48,10 +51,16 @@ def formatted(text: str, place: str = "deck") -> str:
     str
         The text itself where any other one would be read differently.
     """
-    said = list(outline(text, place))
+    with without_collection():
+        return _formatted(text, place)
+
+
+def _formatted(text: str, place: str) -> str:
+    said = _said(text, place)
     if not said or any(each.tokens[0][0] == "COMMA" for each in said):
         return text
-    if _says_the_same(result := _laid_out(said, place), said, place):
+    result = _laid_out(said, place)
+    if result == text or _says_the_same(result, said, place):
         return result
     for each in said:
         if each.given is not None and not _is_safe(each, place):
@@ -60,11 +69,20 @@ def formatted(text: str, place: str = "deck") -> str:
     return result if _says_the_same(result, said, place) else text
 
 
+def _said(text: str, place: str) -> list[Written]:
+    """The statements of a text; none where too much of it cannot be read."""
+    said, unread = list[Written](), 0
+    for each in outline(text, place):
+        said.append(each)
+        unread += len(each.tokens) if each.is_unread else 0
+        if unread > MOST_UNREAD:
+            return []
+    return said
+
+
 def _says_the_same(result: str, said: list[Written], place: str) -> bool:
-    again = list(outline(result, place))
-    return len(again) == len(said) and all(
-        ours.tokens_say(theirs) for ours, theirs in zip(again, said, strict=True)
-    )
+    both = zip_longest(outline(result, place), said)
+    return all(again and each and again.says(each) for again, each in both)
 
 
 def _is_safe(each: Written, place: str) -> bool:
@@ -82,7 +100,7 @@ def _laid_out(said: list[Written], place: str) -> str:
     else:
         rest = head_end(text, place)
         head, lines = text[:rest], list(_between(text[rest : said[0].start]))
-    together = False
+    together, comments = False, _Ignoring(text)
     for each, follower in pairwise([*said, None]):
         assert each is not None
         stop = follower.start if follower else len(text)
@@ -91,7 +109,7 @@ def _laid_out(said: list[Written], place: str) -> str:
             each.given = None
         over = bool(each.cls and each.cls.ends)
         gap = "" if over else text[rest:stop]
-        ignoring = _ignoring(text, rest)
+        ignoring = comments.behind(rest)
         behind = _comment(gap.partition("\n")[0])
         found = _statement_lines(each, behind, place, rest, ignoring)
         if together:
@@ -116,11 +134,21 @@ def _real_end(text: str, each: Written, stop: int) -> int:
     return signs[-1].end() if signs else each.end
 
 
-def _ignoring(text: str, start: int) -> bool:
-    """Whether the comment at the end of a line ignores messages."""
-    end = text.find("\n", start)
-    comment = _comment(text[start : end if end >= 0 else len(text)])
-    return bool(IGNORING.search(comment))
+class _Ignoring:
+    """Which comments at ends of lines ignore messages; asked for in the order of the text."""
+
+    def __init__(self, text: str) -> None:
+        self._text, self._end, self._last = text, -1, -1
+
+    def behind(self, start: int) -> bool:
+        """Whether such a comment is behind an offset, in the same line."""
+        text = self._text
+        if start > self._end:
+            end = text.find("\n", start)
+            self._end = end if end >= 0 else len(text)
+            words = [word.start() for word in IGNORING.finditer(text, start, self._end)]
+            self._last = text.rfind("!", start, words[-1]) if words else -1
+        return start <= self._last
 
 
 def _comment(stretch: str) -> str:
@@ -143,7 +171,9 @@ def _statement_lines(
     found = pieces(each) if each.given is not None else []
     if not found or any("\n" in piece.text for piece in found):
         return [Line(text[each.start : end or each.end], behind)]
-    commented = any("!" in text[a.end : b.start] for a, b in pairwise(found))
+    commented = "!" in text[each.start : each.end] and any(
+        "!" in text[a.end : b.start] for a, b in pairwise(found)
+    )
     rows = kept(found, text) if commented or ignoring else filled(found, text)
     lines = []
     for number, row in enumerate(rows):

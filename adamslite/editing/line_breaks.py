@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
+from itertools import accumulate, pairwise
 
 from adamslite.editing.pieces import NEVER, Piece
 
@@ -22,7 +22,8 @@ def filled(pieces: list[Piece], source: str) -> list[list[Piece]]:
 
     Values of a list that stand in rows, as those of a matrix do, stay in them.
     """
-    if len(joined(pieces, False)) <= WIDTH:
+    widths = accumulate(len(each.glue) + len(each.text) for each in pieces)
+    if all(width <= WIDTH for width in widths):
         return [[*pieces]]
     lines: list[list[Piece]] = []
     line: list[Piece] = []

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import NamedTuple
 
 from adamslite.deck.names import Names
@@ -16,11 +17,12 @@ from adamslite.language.messages import Log
 from adamslite.language.spelling import spelled
 from adamslite.language.statement import Argument, Statement
 from adamslite.reading.argument_grouping import Grouping
+from adamslite.reading.resolver import LONGEST
 from adamslite.reading.statement_reader import Reading, known_keywords
-from adamslite.syntax.forms import Item
-from adamslite.syntax.lines import Logical, join
-from adamslite.syntax.syntax_errors import Syntax, statement_syntax
-from adamslite.syntax.tokens import Lexeme, Tokens, end_of, scan
+from adamslite.syntax.forms import Fault, Item, statement_form
+from adamslite.syntax.lines import join
+from adamslite.syntax.syntax_errors import Syntax, kinds_of
+from adamslite.syntax.tokens import Lexeme, Lexemes, Tokens, end_of, scan
 
 TEXTS = ("text", "texts")
 """Kinds of arguments whose values are kept letter by letter."""
@@ -64,13 +66,35 @@ MOST_WORDS = 1000
 
 @dataclass
 class Written:
-    """A statement as written; ``given`` is None where it cannot be told from mistakes."""
+    """A statement as written; ``cls`` is None where its keyword is not known."""
 
     tokens: Tokens
     name: str | None
-    cls: type[Statement] | None = None
-    given: list[Given] | None = None
-    source: str = field(default="", repr=False)
+    cls: type[Statement] | None
+    log: Log = field(repr=False)
+    """That of the whole text, as what it needs is found once for each."""
+
+    @property
+    def source(self) -> str:
+        """The whole text."""
+        return self.log.source.text
+
+    @cached_property
+    def given(self) -> list[Given] | None:
+        """Its arguments; None where they cannot be told from mistakes, or are not read."""
+        if self.cls is None:
+            return None
+        if len(self.tokens) == 1:
+            return [] if self.cls.ends else None
+        form = statement_form(kinds_of(self.tokens))
+        if isinstance(form, Fault):
+            return None
+        return _given(self.cls, Syntax(self.tokens, form, self.name, True), self.log)
+
+    @property
+    def is_unread(self) -> bool:
+        """Whether it is none of the language, or has a mistake."""
+        return self.given is None and not (self.cls and self.cls.ignored)
 
     @property
     def start(self) -> int:
@@ -90,12 +114,15 @@ class Written:
             *((each.word, bool(each.closed), *self._values(each)) for each in self.given),
         )
 
-    def tokens_say(self, other: Written) -> bool:
-        """Whether this is read as another statement is, of which perhaps only tokens are known."""
-        if other.given is None:
-            words = [token[:2] for token in self.tokens], [token[:2] for token in other.tokens]
-            return self.name == other.name and words[0] == words[1]
-        return self.meaning() == other.meaning()
+    def says(self, other: Written) -> bool:
+        """Whether this is read as another statement is, of which perhaps only tokens are known.
+
+        Equal tokens are read alike, but for texts that are kept letter by letter.
+        """
+        if self.name == other.name and _words(self.tokens) == _words(other.tokens):
+            if not any(each.is_text for each in other.given or ()):
+                return True
+        return other.given is not None and self.meaning() == other.meaning()
 
     def _values(self, given: Given) -> list[object]:
         if given.argument and not given.key:
@@ -121,9 +148,11 @@ def outline(text: str, place: str) -> Iterator[Written]:
 
 def statements(text: str, start: int, end: int, place: str) -> Iterator[Written]:
     """The statements in a stretch of a text, up to the END."""
-    table = _Remembered(known_keywords(place))
+    table, log = _Remembered(known_keywords(place)), Log(Source(text))
     for logical in join(scan(text[:end], start), ampersand=place == "command"):
-        written = _written(logical, text, table)
+        found = table.meaning(spelled(logical.tokens[0][1]).upper())
+        cls = found if isinstance(found, type) else None
+        written = Written(logical.tokens, logical.name, cls, log)
         yield written
         if written.cls and written.cls.ends:
             return
@@ -145,21 +174,14 @@ class _Remembered:
         return self._known[word]
 
 
-def _written(logical: Logical, text: str, table: _Remembered) -> Written:
-    written = Written(logical.tokens, logical.name, source=text)
-    syntax, mistakes = statement_syntax(logical)
-    keyword = spelled(logical.tokens[0][1]).upper()
-    found = table.meaning(keyword)
-    if isinstance(found, type):
-        written.cls = found
-        if len(logical.tokens) == 1:
-            written.given = [] if found.ends else None
-        elif syntax and not mistakes:
-            written.given = _given(found, syntax, text)
-    return written
+def _words(tokens: Tokens) -> tuple[object, object]:
+    """Tokens without their places, comparable."""
+    if isinstance(tokens, Lexemes):
+        return tokens.kinds, tokens.texts
+    return [token[0] for token in tokens], [token[1] for token in tokens]
 
 
-def _given(cls: type[Statement], syntax: Syntax, text: str) -> list[Given] | None:
+def _given(cls: type[Statement], syntax: Syntax, log: Log) -> list[Given] | None:
     """The arguments of a statement; None where some are not understood, or not read."""
     if cls.ignored:
         return None
@@ -169,21 +191,32 @@ def _given(cls: type[Statement], syntax: Syntax, text: str) -> list[Given] | Non
             return None
         found = [Given(None, None, "", [tokens[items[0].start : items[0].end]], [])]
         items = items[1:]
-    log = Log(Source(text))
-    grouping = Grouping(cls, syntax, log)
+    before, grouping = log.errors, Grouping(cls, syntax, log)
     for item in items:
+        if grouping.lists(item) and not item.closed:
+            alone = item.end - item.start == 1
+            value = [tokens[item.start]] if alone else tokens[item.start : item.end]
+            found[-1].values.append(value)
+            continue
         flag = grouping.take(item)
-        if log.errors or not (flag or grouping.current):
+        if log.errors > before or not (flag or grouping.current):
             return None
         value = tokens[item.start : item.end]
         if flag or item.key >= 0:
             found.append(_opened(grouping, item, flag))
-        if found[-1].kind in ("expression", "text") and found[-1].values:
-            found[-1].values[0].extend(value)
-        elif not flag:
-            found[-1].values.append(value)
+        if not flag and not _has_room(found[-1], value):
+            return None
         found[-1].closed[:] = [True] * item.closed
     return found
+
+
+def _has_room(given: Given, value: Tokens) -> bool:
+    """Give an argument one more value, or more of the one it has; whether reading takes as many."""
+    if given.kind in ("expression", "text") and given.values:
+        given.values[0].extend(value)
+    else:
+        given.values.append(value)
+    return given.kind != "expression" or len(given.values[0]) <= LONGEST
 
 
 def _opened(grouping: Grouping, item: Item, flag: bool) -> Given:

@@ -7,6 +7,7 @@ comma alone within them; blanks round plus and minus outside brackets; names as 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import chain, islice
 from typing import NamedTuple
 
 from adamslite.deck.names import RESERVED
@@ -16,9 +17,11 @@ from adamslite.syntax.tokens import CLOSES, OPERATORS, Lexeme, Tokens, end_of
 
 NEVER = 99
 """Depth of a place where no line should break."""
-_WORDS = ("NAME", "NUMBER", "QUOTED", "OTHER")
-_ENDS = (*_WORDS, *CLOSES.values())
+_WORDS = frozenset(("NAME", "NUMBER", "QUOTED", "OTHER"))
+_CLOSING = frozenset(CLOSES.values())
+_ENDS = frozenset((*_WORDS, *_CLOSING))
 _SIGNS = ("PLUS", "MINUS")
+_END: Lexeme = ("", "", 0)
 
 
 class Piece(NamedTuple):
@@ -63,7 +66,8 @@ def pieces(written: Written) -> list[Piece]:
 
 def _argument(source: str, given: Given, glue: str, depth: int) -> Iterator[Piece]:
     """The pieces of an argument; ``glue`` and ``depth`` are those before it."""
-    expression = given.kind == "expression"
+    expression, capitals = given.kind == "expression", given.kind in ("choice", "words")
+    is_text = given.is_text
     if given.key:
         place = given.key[2], end_of(given.key)
         yield Piece(given.word + "=", glue, depth, *place, expression)
@@ -73,11 +77,13 @@ def _argument(source: str, given: Given, glue: str, depth: int) -> Iterator[Piec
         yield Piece(given.word, glue, depth, word[2], end_of(word))
         return
     for value in given.values:
-        if given.is_text:
+        if is_text:
             start, end = value[0][2], end_of(value[-1])
             yield Piece(source[start:end], glue, depth, start, end)
+        elif len(value) == 1 and value[0][0] != "NAME":
+            _, text, start = value[0]
+            yield Piece(text, glue, depth, start, start + len(text))
         else:
-            capitals = given.kind in ("choice", "words")
             yield from _tokens(value, glue, depth, expression, capitals)
         glue, depth = ",", 1
 
@@ -86,27 +92,31 @@ def _tokens(
     tokens: Tokens, glue: str, depth: int, expression: bool, capitals: bool
 ) -> Iterator[Piece]:
     """The pieces of one value; ``glue`` and ``depth`` are those before it."""
-    brackets = 0
-    for number, token in enumerate(tokens):
-        before = [each[0] for each in tokens[max(0, number - 2) : number]]
-        brackets -= token[0] in CLOSES.values()
-        if number:
+    brackets, earlier = 0, ""
+    last: Lexeme | None = None
+    for token, follower in zip(tokens, chain(islice(tokens, 1, None), (_END,)), strict=True):
+        kind, _, start = token
+        brackets -= kind in _CLOSING
+        if last:
             spaced = expression and brackets == 0
-            glue = _between(tokens[number - 1], before, token, spaced)
-            depth = _depth(before[-1], token[0], brackets) if expression else NEVER
-        after = tokens[number + 1][0] if number + 1 < len(tokens) else ""
-        yield Piece(_text(token, after, expression, capitals), glue, depth, token[2], end_of(token))
-        brackets += token[0] in CLOSES
+            glue = _between(last, earlier, token, spaced)
+            depth = _depth(last[0], kind, brackets) if expression else NEVER
+            earlier = last[0]
+        yield Piece(
+            _text(token, follower[0], expression, capitals), glue, depth, start, end_of(token)
+        )
+        brackets += kind in CLOSES
+        last = token
 
 
-def _between(last: Lexeme, before: list[str], token: Lexeme, spaced: bool) -> str:
-    """A blank between two tokens, or nothing; ``before`` are the kinds of the last two."""
+def _between(last: Lexeme, earlier: str, token: Lexeme, spaced: bool) -> str:
+    """A blank between two tokens, or nothing; ``earlier`` is the kind of the token before both."""
     if last[0] in _WORDS and token[0] in _WORDS:
         return " "
     if token[0] in _SIGNS and last[0] in _ENDS:
         exponent = last[0] == "NUMBER" and last[1][-1] in "dD"  # 90D-3 would be a number
         return " " if spaced or exponent else ""
-    return " " if spaced and last[0] in _SIGNS and before[0] in _ENDS else ""
+    return " " if spaced and last[0] in _SIGNS and earlier in _ENDS else ""
 
 
 def _depth(before: str, kind: str, brackets: int) -> int:

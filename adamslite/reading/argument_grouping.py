@@ -92,6 +92,17 @@ class Grouping:
             self.take(item)
         return self.found
 
+    def lists(self, item: Item) -> bool:
+        """Whether an item is one more value of the present list: no word, which may be more."""
+        current = self.current
+        return (
+            item.key < 0
+            and current is not None
+            and current.argument.kind in _LISTS
+            and not current.closed
+            and self.tokens[item.start][0] != "NAME"
+        )
+
     def take(self, item: Item) -> bool:
         """Put one item under its argument; True for a word that is an argument by itself."""
         flag = False

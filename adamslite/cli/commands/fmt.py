@@ -2,10 +2,10 @@
 
 Keywords in full and in capitals, one blank behind the comma between arguments, lines of at most 80
 columns, comments aligned (docs/how-to/editor.md). What a file says, its comments and its names
-stay; a statement with a mistake stays as it is. `-` is a deck from standard input, which goes to
-standard output. Each file is written whole or not at all. With
---check nothing is written: the files that would change are listed, and the exit code is 1 if there
-are any.
+stay; a statement with a mistake stays as it is, and so does a file with more than 100 000 words
+that cannot be read. `-` is a deck from standard input, which goes to standard output. Each file is
+written whole or not at all. With --check nothing is written: the files that would change are
+listed, and the exit code is 1 if there are any.
 """
 
 import argparse
