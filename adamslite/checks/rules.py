@@ -56,6 +56,7 @@ from adamslite.checks.sizes import expressions_too_large
 from adamslite.checks.tables import TABLE_RULES
 from adamslite.deck.deck import Deck
 from adamslite.deck.named_places import with_named
+from adamslite.gc_pause import without_collection
 from adamslite.language.diagnostics import Diagnostic, sort_by_place
 from adamslite.language.messages.ignoring import judged, without_ignored
 
@@ -65,8 +66,9 @@ def check(deck: Deck) -> list[Diagnostic]:
 
     Comments ``! adamslite: ignore CODE`` of the deck are heeded.
     """
-    found = [*deck.warnings, *with_named(deck, apply(ADVICE, deck))]
-    return sort_by_place(judged(deck.source, found, complete=True))
+    with without_collection():
+        found = [*deck.warnings, *with_named(deck, apply(ADVICE, deck))]
+        return sort_by_place(judged(deck.source, found, complete=True))
 
 
 def needless(deck: Deck) -> list[Diagnostic]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
+from typing import TypeAlias
 
 from adamslite.deck.deck import Deck
 from adamslite.kernels.columns import LARGEST, MOST_IN_ALL
@@ -13,8 +14,9 @@ from adamslite.model.cycles import behind_others
 
 COPIES = 2
 """How often a VARIABLE is written out in a statement: for its value, and for rates of it."""
-Own = tuple[str, object]
+Own: TypeAlias = tuple[str, object]
 """Keyword and id of a statement."""
+Counts: TypeAlias = dict[Own, tuple[int, list[Own]]]
 
 
 def expressions_too_large(deck: Deck) -> Iterator[Diagnostic]:
@@ -25,14 +27,15 @@ def expressions_too_large(deck: Deck) -> Iterator[Diagnostic]:
     """
     if COPIES * len(deck.source.text) <= LARGEST:
         return
-    if not _may_be_too_large(_sizes(deck)):
+    counts = _counts(deck)
+    if not _may_be_too_large(_sizes(counts)):
         return
     from adamslite.kernels.collecting import refused
     from adamslite.model.model import Model
 
     model = Model(deck)
     signals = {("VARIABLE", each.key) for each in model.signals}
-    if not signals or _may_be_too_large(_sizes(deck, signals)):
+    if not signals or _may_be_too_large(_sizes(counts, signals)):
         found = refused(model)
         if found is not None and found.code in ("expression-too-large", "deck-too-large"):
             yield found
@@ -42,22 +45,25 @@ def _may_be_too_large(sizes: Collection[int]) -> bool:
     return COPIES * max(sizes, default=0) > LARGEST or COPIES * sum(sizes) > MOST_IN_ALL
 
 
-def _sizes(deck: Deck, signals: Collection[Own] = ()) -> Collection[int]:
+def _counts(deck: Deck) -> Counts:
+    """Operations of each statement by itself, and what is written out in it."""
+    found: Counts = {}
+    for statement in deck.statements:
+        nodes = [node for each in expressions(statement) for node in walk(each)]
+        if nodes:
+            found[statement.keyword, statement.key] = len(nodes), _measured(nodes)
+    return found
+
+
+def _sizes(counts: Counts, signals: Collection[Own] = ()) -> Collection[int]:
     """Operations of each statement with all that is written out in it, or more; each of these
     counts as often as it is taken.  Of ``signals`` the value alone is taken.
     """
-    own: dict[Own, int] = {}
-    taken: dict[Own, list[Own]] = {}
-    for statement in deck.statements:
-        found = [node for each in expressions(statement) for node in walk(each)]
-        if found:
-            key: Own = (statement.keyword, statement.key)
-            own[key] = len(found)
-            taken[key] = _measured(found)
     sizes: dict[Own, int] = {}
-    for key in behind_others(own, lambda each: [k for k in taken[each] if k in own]):
-        others = sum(1 if each in signals else sizes.get(each, 0) for each in taken[key])
-        sizes[key] = min(own[key] + others, LARGEST + 1)
+    for key in behind_others(counts, lambda each: [k for k in counts[each][1] if k in counts]):
+        own, taken = counts[key]
+        others = sum(1 if each in signals else sizes.get(each, 0) for each in taken)
+        sizes[key] = min(own + others, LARGEST + 1)
     return sizes.values()
 
 

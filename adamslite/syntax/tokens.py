@@ -34,6 +34,8 @@ AHEAD = 64
 """Characters behind a token that may decide what it is, where their number is bounded."""
 MANY = 512
 """Tokens of a statement above which they are kept as columns."""
+FEW = 4
+"""Tokens that are added to columns one by one in less time."""
 
 NEW_STATEMENT = re.compile(r"\n(?=[A-Za-z])")
 """Where a text may be cut: a line that begins with a letter continues no other."""
@@ -94,16 +96,21 @@ class Lexemes(MutableSequence[Lexeme]):
         return made
 
     def extend(self, tokens: Iterable[Lexeme]) -> None:
-        each = tokens if isinstance(tokens, Lexemes) else None
-        if each is None:
+        if isinstance(tokens, Lexemes):
+            self.kinds += tokens.kinds
+            self.texts += tokens.texts
+            self.offsets.extend(tokens.offsets)
+        else:
             listed = [*tokens]
             self.kinds += [token[0] for token in listed]
             self.texts += [token[1] for token in listed]
             self.offsets.extend([token[2] for token in listed])
-        else:
-            self.kinds += each.kinds
-            self.texts += each.texts
-            self.offsets.extend(each.offsets)
+
+    def append(self, token: Lexeme) -> None:
+        kind, text, offset = token
+        self.kinds.append(kind)
+        self.texts.append(text)
+        self.offsets.append(offset)
 
     def __len__(self) -> int:
         return len(self.kinds)
@@ -136,7 +143,11 @@ def lengthened(tokens: Tokens, more: Tokens) -> Tokens:
     """The same tokens and more of them, as columns as soon as they are many."""
     if type(tokens) is list and len(tokens) + len(more) > MANY:
         tokens = Lexemes(tokens)
-    tokens.extend(more)
+    if len(more) <= FEW:
+        for token in more:
+            tokens.append(token)
+    else:
+        tokens.extend(more)
     return tokens
 
 

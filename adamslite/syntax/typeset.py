@@ -108,8 +108,11 @@ class Plain:
             if kind == "kept" or (kind in _MATHEMATICS and not self._closes):
                 continue  # copied with what follows
             self._copy(found.start())
-            self._replace(kind, found)
-            at = self._read
+            if (meaning := _MEANINGS.get(kind)) is not None:
+                self._put(meaning, at)
+            else:
+                self._replace(kind, found)
+                at = self._read
         self._copy(len(source))
         self.text = "".join(self._pieces)
 
@@ -164,7 +167,7 @@ class Plain:
             self._copy(found.end("index"))
             self._put("", end)
         else:
-            self._put(_MEANINGS.get(kind, found[kind]), end)
+            self._put(found[kind], end)
 
     def _close(self, found: re.Match[str]) -> None:
         """The end of a group; behind that of a numerator a denominator begins."""
