@@ -371,21 +371,21 @@ def _watch(
             running.wait(WATCH_INTERVAL)
             if outlet:
                 outlet.look()
-                _say(progress, outlet.journal.note())
+                if (note := outlet.journal.note()) and progress:
+                    progress.say(note)
             if budget.out_of_time:
-                outlet.expire() if outlet else setattr(system.settings, "stop", True)
+                outlet.expire() if outlet else _stop(system)
             elif progress and running.works:
                 progress.watch(look())
         except KeyboardInterrupt:
             rows = int(system.count.records) + (outlet.history.count if outlet else 0)
             if progress and rows * system.nw > MANY:
                 progress.say(ENDING)
-            outlet.interrupt() if outlet else setattr(system.settings, "stop", True)
+            outlet.interrupt() if outlet else _stop(system)
 
 
-def _say(progress: Progress | None, sentence: str) -> None:
-    if progress and sentence:
-        progress.say(sentence)
+def _stop(system: System) -> None:
+    system.settings.stop = True
 
 
 def _state(system: System, limits: StepLimits, start: float, end: float) -> RunState:
