@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Container, Iterator
 from itertools import chain
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from adamslite.language.expression import Ref, walk
 from adamslite.language.statement import Statement, expressions
@@ -28,9 +28,9 @@ SHORT = 8
 """VARIABLEs that a statement may be made of and have a kernel of its own, which it shares with all
 statements of that shape.
 """
-MOST_WRITTEN = 20_000
-"""Operations that statements which take links of the same chains may write out all together;
-compiling these takes five seconds, and a minute where each link measures another body.
+MOST_WRITTEN = 60_000
+"""Operations that statements which take links of the same chains may write out all together, each
+with its derivatives by what the statement measures; compiling these takes some seconds.
 """
 
 
@@ -130,24 +130,38 @@ def _is_evaluated(statement: Statement, loops: set[Key]) -> bool:
 def _is_too_much(model: WithVariables, found: list[tuple[Key, ...]], others: set[Key]) -> bool:
     """Whether statements that take these VARIABLEs write out more operations than they may.
 
-    Those of equal size are of one shape, and counted once, or few.
+    An operation counts for itself and for each marker or element that the statement measures.
+    Statements of equal size are of one shape, and counted once, or few; the largest of all is
+    written out in any case.
     """
-    sizes: set[int] = set()
-    own: dict[Key, int] = {}
-    total = 0
+    sizes: set[tuple[int, int]] = set()
+    own: dict[Key, _Own] = {}
+    total = largest = 0
     for taken in dict.fromkeys(found):
         links = behind_others(taken, model.uses.__getitem__, others)
         for key in links:
             if key not in own:
-                own[key] = _operations(model, key)
-        size = sum(map(own.__getitem__, links))
-        total += size if size not in sizes else 0
+                own[key] = _own(model, key)
+        measured = set[Ref]().union(*(own[key].measured for key in links))
+        size = sum(own[key].operations for key in links), 1 + len(measured)
+        if size not in sizes:
+            total += size[0] * size[1]
+            largest = max(largest, size[0] * size[1])
         sizes.add(size)
-        if total > MOST_WRITTEN:
-            return len(sizes) > 1
+        if total - largest > MOST_WRITTEN:
+            return True
     return False
 
 
-def _operations(model: WithVariables, key: Key) -> int:
-    """Numbers, operations and calls of a VARIABLE."""
-    return sum(not isinstance(each, Ref) for each in walk(model.variable(key).function))
+class _Own(NamedTuple):
+    """Of a VARIABLE by itself: numbers, operations and calls; markers and elements it measures."""
+
+    operations: int
+    measured: set[Ref]
+
+
+def _own(model: WithVariables, key: Key) -> _Own:
+    nodes = [*walk(model.variable(key).function)]
+    refs = {each for each in nodes if isinstance(each, Ref)}
+    count = sum(not isinstance(each, Ref) for each in nodes)
+    return _Own(count, {each for each in refs if each.kind != "VARIABLE"})
