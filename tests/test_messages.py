@@ -187,6 +187,8 @@ def test_all_mistakes_are_told_at_once_and_in_order() -> None:
         ("VARIABLE/1, FUNCTION=TIME > 1", "IF(x: a, b, c)"),
         ("VARIABLE/1, FUNCTION=TIME(1)", "TIME takes no arguments"),
         ("VARIABLE/1, FUNCTION=2TIME", "a product is written 2*TIME"),
+        ("VARIABLE/1, FUNCTION=DY(1 1)", "arguments are separated by commas"),
+        ("VARIABLE/1, FUNCTION=(1 1)", "an expression ends with a backslash when another"),
         ("VARIABLE/1, FUNCTION=1E", "an expression ends with a backslash"),
         ("JOINT/1, INLINE, I=2, J=1", "INLINE belongs to JPRIM"),
         (f"MARKER/{'9' * 19}, PART=1", "an id is a number from 1 up, of 18 digits at most"),

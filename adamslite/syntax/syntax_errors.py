@@ -241,6 +241,12 @@ def _item_start(tokens: Tokens, at: int) -> int:
     return start
 
 
+def _is_argument(tokens: Tokens, at: int) -> bool:
+    """Whether a token is inside the brackets of a function."""
+    opened = _open_brackets(tokens[:at])
+    return bool(opened) and opened[-1] > 0 and tokens[opened[-1] - 1][0] == "NAME"
+
+
 def expression_mistake(tokens: Tokens, fault: Fault) -> Mistake:
     """What is wrong with an expression whose form breaks at ``fault``."""
     at = fault.at
@@ -251,6 +257,8 @@ def expression_mistake(tokens: Tokens, fault: Fault) -> Mistake:
         words = {"word": tokens[at - 1][1], "other": tokens[here][1]}
         if before == "NUMBER" and kind != "NUMBER" and words["other"][0] not in "eE":
             words["hint"] = f"a product is written {words['word']}*{words['other']}"
+        elif _is_argument(tokens, at):
+            words["hint"] = WRITTEN[";"]
         return Mistake("missing-operator", at - 1, here, words)
     if before == "COMMA" or kind == "COMMA" and before in CLOSES:
         return Mistake("empty-argument", at - 1, here)
