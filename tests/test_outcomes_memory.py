@@ -53,16 +53,28 @@ def test_rows_are_counted_before_a_run(lines: list[str], rows: int) -> None:
     assert rows_of(commands(*lines)) == rows
 
 
-@pytest.mark.parametrize("deck", [POINT, PART])
-def test_the_estimate_is_what_a_run_takes(deck: str, monkeypatch: pytest.MonkeyPatch) -> None:
+SENSED = POINT.replace("END", "SENSOR/1, FUNCTION=DX(2,1)\\ VALUE=0.5, GE, PRINT\nEND")
+
+
+@pytest.mark.parametrize("deck", [POINT, PART, SENSED], ids=["point", "part", "sensed"])
+@pytest.mark.parametrize("analyses", [1, 2])
+@pytest.mark.parametrize("outputs", [(), ("*.x",), ("*[xyz]",), ("*",)], ids=str)
+def test_the_estimate_is_what_a_run_takes(
+    deck: str, analyses: int, outputs: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Within a third, and not less."""
     found: list[int] = []
     monkeypatch.setattr(run_size, "_need", lambda what, need, *_: found.append(need))
     monkeypatch.setattr("adamslite.analyses.setup.output_times.SMALL", 0)
-    done(deck, 1.0, 10)
+
+    def take(rows: int) -> None:
+        lines = f"SIMULATE/DYNAMIC, DURATION=1, STEPS={rows // analyses}\n" * analyses
+        al.simulate(deck, commands=f"{lines}STOP\n", outputs=outputs, max_steps=10**6)
+
+    take(10)
     tracemalloc.start()
     try:
-        done(deck, 1.0, 100_000)
+        take(100_000)
         peak = tracemalloc.get_traced_memory()[1]
     finally:
         tracemalloc.stop()

@@ -193,9 +193,7 @@ def _given(cls: type[Statement], syntax: Syntax, log: Log) -> list[Given] | None
         items = items[1:]
     before, grouping = log.errors, Grouping(cls, syntax, log)
     for item in items:
-        if grouping.lists(item) and not item.closed:
-            alone = item.end - item.start == 1
-            value = [tokens[item.start]] if alone else tokens[item.start : item.end]
+        if value := grouping.listed(item):
             found[-1].values.append(value)
             continue
         flag = grouping.take(item)

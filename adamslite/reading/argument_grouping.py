@@ -89,19 +89,23 @@ class Grouping:
     def collect(self, items: Iterable[Item]) -> dict[str, Pieces]:
         """The pieces of each argument that is given, by field name."""
         for item in items:
-            self.take(item)
+            if (value := self.listed(item)) and self.current:
+                self.current.values.append(value)
+            else:
+                self.take(item)
         return self.found
 
-    def lists(self, item: Item) -> bool:
-        """Whether an item is one more value of the present list: no word, which may be more."""
+    def listed(self, item: Item) -> Tokens | None:
+        """The tokens of an item that is no more than a further value of the present list; None of
+        others, and of words, which may be more.
+        """
         current = self.current
-        return (
-            item.key < 0
-            and current is not None
-            and current.argument.kind in _LISTS
-            and not current.closed
-            and self.tokens[item.start][0] != "NAME"
-        )
+        if item.key >= 0 or not current or current.closed or item.closed:
+            return None
+        token = self.tokens[item.start]
+        if token[0] == "NAME" or current.argument.kind not in _LISTS:
+            return None
+        return [token] if item.end - item.start == 1 else self._tokens_of(item)
 
     def take(self, item: Item) -> bool:
         """Put one item under its argument; True for a word that is an argument by itself."""
@@ -129,7 +133,7 @@ class Grouping:
             self._guess(meaning)
         pieces = self._open(meaning, token) if isinstance(meaning, Argument) else None
         if pieces:
-            pieces.values.append(self.tokens[item.start : item.end])
+            pieces.values.append(self._tokens_of(item))
             self.current, self.skipping = pieces, False
 
     def _guess(self, meaning: object) -> None:
@@ -195,8 +199,7 @@ class Grouping:
         return kind in _LISTS or (current.closed if kind == "text" else kind == "expression")
 
     def _value(self, item: Item) -> None:
-        piece = self.tokens[item.start : item.end]
-        current = self.current
+        piece, current = self._tokens_of(item), self.current
         if (
             current
             and self._takes_more()
@@ -208,6 +211,10 @@ class Grouping:
                 current.values[0] = lengthened(current.values[0], piece)
         elif not self.skipping:
             self._stray(piece)
+
+    def _tokens_of(self, item: Item) -> Tokens:
+        found: Tokens = self.tokens[item.start : item.end]
+        return found
 
     def _stray(self, piece: Tokens) -> None:
         """A value of no argument: after a whole number it may be the decimals of that."""

@@ -159,8 +159,14 @@ class Results:
 
     def limited(self, columns: list[int]) -> Results:
         """The results with some of the columns alone."""
+        if columns == [*range(len(self.names))]:
+            return self
         names = tuple(self.names[k] for k in columns)
-        return replace(self, names=names, values=np.ascontiguousarray(self.values[:, columns]))
+        values, row = np.empty((self.count, len(columns))), 0
+        for _, part in self.blocks():  # all at once would be there twice
+            values[row : row + len(part)] = part[:, columns]
+            row += len(part)
+        return replace(self, names=names, values=values)
 
     @property
     def count(self) -> int:

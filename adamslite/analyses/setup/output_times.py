@@ -170,8 +170,18 @@ def need_room(
         from adamslite.analyses.setup.run_size import Rows, require_room
 
         filed = filed and not system.model.deck.delays and all(map(_is_filed, plan))
-        copies = 1 if columns == record - system.numbering.n_head else 2
-        require_room(Rows(rows, columns, record, copies, filed, tables, files), kept, output)
+        made = _made(system, len(plan), record, columns, kept)
+        require_room(Rows(rows, columns, record, made, filed, tables, files), kept, output)
+
+
+def _made(system: System, analyses: int, record: int, columns: int, kept: int) -> int:
+    """How many numbers are made of a record; see :mod:`adamslite.analyses.setup.run_size`."""
+    chosen = kept if kept < columns else 0
+    if columns == record - system.numbering.n_head:
+        made = columns * (analyses > 1) + chosen
+    else:
+        made = 2 * columns + chosen * (analyses > 1)
+    return made + (record + columns) // max(1, analyses) * bool(system.numbering.sensors)
 
 
 def _is_filed(command: Command) -> bool:

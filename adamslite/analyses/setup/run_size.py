@@ -2,10 +2,13 @@
 
 With n rows, c columns and w numbers in a record (workspace and outputs), a run takes at its height
 
-    8 n (w + 2 c + 5)     byte: the record, its columns, what is found of them; times
+    8 n (w + m + 5)     byte: the record, what is made of it; times
 
-(c for 2 c where the columns are a part of the record, those of point masses alone).  Where rows are
-kept in a file none of them is in memory but times, unless a page is drawn or the run is confirmed.
+m is 2 c: columns, and what is found of them, or all in one table; those of several analyses that
+are kept, where these are some of all, besides.  Of columns that are a part of the record, those of
+point masses alone, m is c for several analyses and none for one, and those that are kept.  Sensors
+end one of k analyses early, with another record: (w + c) / k more.  Where rows are kept in a file
+none of them is in memory but times, unless a page is drawn or the run is confirmed.
 A file takes 8 n (c + 1) byte at least, and as much again while rows are kept in a file.
 Numbers that use all their digits take 19 as text, those that are zero 4.
 """
@@ -31,15 +34,15 @@ ELSEWHERE = "fewer columns (--outputs), or another disk"
 
 
 class Rows(NamedTuple):
-    """The rows of a run: how many; their columns, and the numbers of a record, of which the columns
-    are made (``copies`` 2) or a part (1); whether they are kept in a file while the run lasts, and
-    how often they are all in memory when it has ended; how many files have them.
+    """The rows of a run: how many; their columns, the numbers of a record, and how many are made of
+    these; whether they are kept in a file while the run lasts, and how often they are all in memory
+    when it has ended; how many files have them.
     """
 
     number: int
     columns: int
     record: int
-    copies: int
+    made: int
     filed: bool
     tables: int = 0
     files: int = 1
@@ -65,7 +68,7 @@ def require_room(rows: Rows, kept: int, file: Path | None) -> None:
     """
     if file is not None and (fits := format_of(file).need_room):
         fits(rows.number, kept)
-    own = 0 if rows.filed else rows.record + rows.copies * rows.columns
+    own = 0 if rows.filed else rows.record + rows.made
     memory = NUMBER * rows.number * (own + rows.tables * rows.columns + OF_TIME)
     remedy = IN_FILES if rows.tables else FEWER
     _need("memory", memory, free_memory(), rows, rows.columns, "", remedy)
