@@ -128,6 +128,25 @@ def test_rows_that_contradict_each_other_are_named_as_before(
     assert found[0] == found[1]
 
 
+@pytest.mark.parametrize("share", [0.0, 1e-3, 1.0])
+def test_contradictions_stay_at_their_least_sum_of_squares(
+    monkeypatch: pytest.MonkeyPatch, share: float
+) -> None:
+    """Defects of a ring that contradict each other, and a share of others; without any, what is
+    left of them is round-off, which contradicts, too.
+    """
+    system = started(compiled(ring(12)), monkeypatch, 0).system
+    system.drop([])
+    kept, level = np.arange(system.m), least_change.POSITIONS
+    dense, sparse = (way(system, level, kept) for way in (least_change.Dense, least_change.Sparse))
+    draw = np.random.default_rng(3)
+    left, sizes, _ = np.linalg.svd(dense.gradient * dense.scale)
+    against = left[:, (sizes > 1e-9).sum() :]
+    defect = against @ draw.normal(size=against.shape[1]) + share * draw.normal(size=system.m)
+    wanted = dense.step(defect)
+    np.testing.assert_allclose(sparse.step(defect), wanted, atol=1e-9 * (share + 1e-3))
+
+
 def test_a_bad_choice_of_rows_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     """A parallelogram that has flattened keeps rows that are dependent there while those left out
     are not, or is as singular as all rows are: both ways judge alike.

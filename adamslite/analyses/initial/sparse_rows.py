@@ -180,17 +180,27 @@ class LeastChanges:
         """The smallest weighted change (n,) that removes a defect (m,) of the rows, to first order;
         contradictions stay at their least sum of squares.
         """
-        step = self._step(self.shrunk * defect)
-        if self.found:
-            left, sizes, right = np.linalg.svd(self.forces, full_matrices=False)
-            wanted, some = left.T @ (self.combinations @ (self.shrunk * defect)), sizes > RANK
-            lost = np.abs(wanted[~some]).max(initial=0.0)
-            if lost > CONTRADICTED * np.abs(self.shrunk * defect).max():
-                vanishing = left.T[~some] @ self.combinations * self.shrunk
-                basis = np.linalg.qr(vanishing.T)[0]
-                return self.step(defect - basis @ (basis.T @ defect))
-            step += right[some].T @ (wanted[some] / sizes[some])
+        if not self.found:
+            return self._step(self.shrunk * defect) / self.weights
+        left, sizes, right = np.linalg.svd(self.forces, full_matrices=False)
+        some = sizes > RANK
+        defect = self._met(defect, left.T[~some] @ self.combinations)
+        wanted = (left.T @ (self.combinations @ (self.shrunk * defect)))[some]
+        step = self._step(self.shrunk * defect) + right[some].T @ (wanted / sizes[some])
         return step / self.weights
+
+    def _met(self, defect: np.ndarray, vanishing: np.ndarray) -> np.ndarray:
+        """A defect without what contradicts ``vanishing`` combinations of the rows of U.
+
+        What is left may be round-off, which contradicts them as well.
+        """
+        for _ in range(PASSES):
+            lost = np.abs(vanishing @ (self.shrunk * defect)).max(initial=0.0)
+            if not lost > CONTRADICTED * np.abs(self.shrunk * defect).max():
+                break
+            basis = np.linalg.qr((vanishing * self.shrunk).T)[0]
+            defect = defect - basis @ (basis.T @ defect)
+        return defect
 
     def _step(self, defect: np.ndarray) -> np.ndarray:
         """The smallest change that removes a defect of the rows of U that are kept."""
