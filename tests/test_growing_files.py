@@ -157,14 +157,14 @@ def test_a_long_file_that_becomes_a_short_one(tmp_path: Path, suffix: str) -> No
     assert not table.finish(few) and [*tmp_path.iterdir()] == []
 
 
-def test_an_equilibrium_in_the_place_of_the_last_row(tmp_path: Path) -> None:
+def test_motion_in_the_place_of_the_equilibrium_that_it_begins_from(tmp_path: Path) -> None:
     path, whole = tmp_path / "x.csv", results(1000)
     history, table = growing(path)
     history.append(piece(whole, 0, 401), static=False, after_rest=False)
     table.follow(history)
     assert table.count == 401
     rest = Piece(whole.time[400:], whole.names, -whole.values[400:])
-    history.append(rest, static=True, after_rest=True)
+    history.append(rest, static=False, after_rest=True)
     values = np.concatenate([whole.values[:400], -whole.values[400:]])
     there = Results(time=whole.time, names=NAMES, values=values, meta=whole.meta)
     assert table.finish(there) and same(path, there)

@@ -30,7 +30,7 @@ def against(drawing: Drawing, other: Results, name: str) -> dict[str, Any]:
     if not any(each in drawing.results for each in other.names) or not len(other.time):
         what = "no channel of these results" if len(other.time) else "no output time"
         raise FormatError(f"{name or 'the other result'} has {what}: nothing can be compared")
-    other = forward(other)
+    other = forward(other).by_row()
     labels = [body.statement.label for body in drawing.model.bodies]
     known = [_has(other, label) for label in labels]
     full = _completed(drawing.results, other, labels)

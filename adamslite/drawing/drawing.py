@@ -55,7 +55,7 @@ class Drawing:
     """
 
     def __init__(self, deck: Deck, results: Results, page: Page | None = None) -> None:
-        given, results = len(results.time), forward(results)
+        given, results = len(results.time), forward(results).by_row()
         self.deck, self.results = deck, results
         self.model = Model(deck)
         self.page = page or Page()

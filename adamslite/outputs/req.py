@@ -145,10 +145,11 @@ def _results(lines: list[str]) -> Results:
     if numbers.size % size:
         raise ValueError(f"{numbers.size} numbers are no multiple of the {size} of an output time")
     table = numbers.reshape(-1, size)
-    last = np.append(table[1:, 0] != table[:-1, 0], True)[: len(table)]
+    if DATE not in lines[0]:  # ADAMS writes the first state twice
+        table = table[np.append((table[1:] != table[:-1]).any(axis=1), True)[: len(table)]]
     names = tuple(f"REQUEST/{id}.{name}" for id in ids for name in WRITTEN)
     return Results(
-        time=table[last, 0], names=names, values=table[last, 1:],
+        time=table[:, 0], names=names, values=table[:, 1:],
         meta={"deck": lines[1].strip(), "written by": "ADAMS, request file"},
         printed=Printed(digits=DIGITS),
     )  # fmt: skip

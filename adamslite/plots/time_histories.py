@@ -128,6 +128,7 @@ def _chosen(
 ) -> Drawn:
     if not len(results.time):
         raise UsageError("the results hold no output time: there is nothing to draw")
+    results = results.by_row() if against is None else results
     if not channels:
         near = ", ".join(results.names[:3])
         raise UsageError(f"no channel is named; there are {near}, ...")
@@ -176,7 +177,7 @@ def _has_difference(drawn: Drawn) -> bool:
 
 
 def _title(drawn: Drawn) -> str:
-    over = "time" if drawn.over_time else drawn.x.channel.long_name
+    over = drawn.x.channel.quantity if drawn.over_time else drawn.x.channel.long_name
     text = f"{summary(drawn.curves)} over {over}"
     if drawn.beside:
         text += f": {drawn.beside.verdict}"
@@ -204,7 +205,7 @@ def _notes(drawn: Drawn) -> Iterator[str]:
 def _panel(axis: Axes, panel: Panel, drawn: Drawn) -> None:
     """One axis with its curves, the reference and the marks of events."""
     axis.set_title(panel.title)
-    marker = "o" if len(drawn.results.time) < 3 else ""
+    marker = "o" if len(drawn.results.time) < 3 or drawn.x.channel.quantity == "row" else ""
     many = len(panel.curves) > TELLABLE
     handles: list[Any] = []
     for each in panel.curves:
@@ -299,7 +300,7 @@ def _across(axes: Sequence[Axes], drawn: Drawn) -> None:
     """The common horizontal axis, and the marks of events on it."""
     last = axes[-1]
     if drawn.over_time:
-        last.set_xlabel(titled("time", drawn.x.channel.unit))
+        last.set_xlabel(titled(drawn.x.channel.quantity, drawn.x.channel.unit))
     else:
         channel = drawn.x.channel
         last.set_xlabel(

@@ -338,7 +338,8 @@ def _at_output_times(
             f"(the nearest is {covered[nearest][off][0]:.12g}); "
             "choose the same output step, or state an interpolation (linear, cubic)"
         )
-    return lambda history: history[nearest]
+    last = np.searchsorted(covered, covered[nearest], side="right") - 1  # of rows at one time
+    return lambda history: history[last]
 
 
 def _cubic(covered: np.ndarray, history: np.ndarray, times: np.ndarray) -> np.ndarray:

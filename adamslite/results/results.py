@@ -168,6 +168,17 @@ class Results:
             row += len(part)
         return replace(self, names=names, values=values)
 
+    def by_row(self) -> Results:
+        """Return the results over row numbers where all of several rows are at one time
+        (successive equilibria), else as they are.
+        """
+        if self.count < 2 or np.ptp(self.time) != 0.0:
+            return self
+        from adamslite.results.channels import Channel
+
+        channels = {**self.channels, "time": Channel("time", "", "", "", "row")}
+        return replace(self, time=np.arange(1.0, self.count + 1.0), channels=channels)
+
     @property
     def count(self) -> int:
         """How many output times there are."""

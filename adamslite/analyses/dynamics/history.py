@@ -67,18 +67,18 @@ class History:
         #: Files of results that are written while the run lasts.
         self.growing: Sequence[Growing] = ()
 
-    def append(self, piece: Piece, static: bool, after_rest: bool) -> None:
-        """Add what an analysis wrote; a state both ends and begins two analyses only once.
+    def append(self, piece: Piece, static: bool, after_rest: bool, changed: bool = False) -> None:
+        """Add the rows of an analysis; a state both ends and begins two analyses only once.
 
-        An equilibrium (``static``) is another state at the same time, which takes the place of the
-        last one where the analysis begins ``after_rest``.
+        An equilibrium (``static``) is another state at the same time, and keeps its row.  Motion
+        that begins ``after_rest`` replaces it, unless the model has ``changed`` since.
         """
         last = self.stretches[-1] if self.stretches else None
         if last and last.count and piece.count and _end(last) == piece.times[0]:
-            if after_rest:
+            if after_rest and not static and not changed:
                 self.stretches[-1] = last.until(last.count - 1)
                 self._taken_back()
-            elif not static:
+            elif not static and not after_rest:
                 piece = Piece(piece.times[1:], piece.names, piece.values[1:])
         if piece.count or not last:
             self.extend(piece)

@@ -33,10 +33,26 @@ def seen_in_rows(session: Session) -> dict[str, str]:
     if session.outcome is Outcome.INTERRUPTED and history.numbers > MOST_LOOKED_AT:
         return {**_beyond(session), "not looked for": LATER.format(rows=history.count)}
     slack = compressed(session.deck, history) if history.count else ""
-    found = {**_beyond(session, slack), **_standing(session), **_without_value(history)}
+    found = {
+        **_analyses(session), **_beyond(session, slack), **_standing(session),
+        **_without_value(history),
+    }  # fmt: skip
     if session.counts.steps and (note := _accuracy_note(session)):
         found["accuracy"] = note
     return found
+
+
+def _analyses(session: Session) -> dict[str, str]:
+    """The rows of each analysis, where two have rows of their own at one time."""
+    history, begun = session.history, session.analyses
+    ends = [count for *_, count in begun[1:]] + [history.count]
+    texts, repeated = [], False
+    for (kind, start, first), end in zip(begun, ends, strict=True):
+        near = next(history.parts(2, first - 1))[0].tolist() if first else []
+        repeated |= near == [start, start]
+        row = first + (near[:1] != [start] or near[1:] == [start])  # one may end the last, too
+        texts.append(f"{kind} row {row}" + (f" to {end}" if end > row else ""))
+    return {"analyses": "; ".join(texts)} if repeated else {}
 
 
 def _beyond(session: Session, slack: str = "") -> dict[str, str]:

@@ -138,6 +138,7 @@ class Session(SessionState):
             return
         if kind in ("STATICS", "KINEMATICS") and len(times) > 1:
             require_none(self.system, AT_TIMES.format(kind=kind))
+        self.analyses.append((kind, self.time, self.history.count))
         {
             "DYNAMICS": self._dynamics,
             "STATICS": self._statics,

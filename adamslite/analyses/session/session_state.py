@@ -74,6 +74,10 @@ class SessionState:
         How the last analysis ended; the constraint that stayed open, if one did.
     present : System or None
         ``system``, as far as it is there; ``began_static``: it is at rest after an equilibrium.
+    recorded
+        The kernels of the last analysis.
+    analyses
+        Kind and start of each analysis, and the number of rows before it.
     before
         The history without what the present run has written.
     saves, changes
@@ -128,6 +132,8 @@ class SessionState:
         self.changes: tuple[Redefinition[Any], ...] = ()
         self.present: System | None = None
         self.began_static = False
+        self.recorded = self.kernels
+        self.analyses: list[tuple[str, float, int]] = []
 
     @property
     def deck(self) -> Deck:
@@ -255,7 +261,7 @@ class SessionState:
         except MemoryError:
             self.end_for_memory()
             self._add(system, times, static, wanted)
-        self.began_static = static
+        self.began_static, self.recorded = static, self.kernels
         self.counts.add(system.count)
 
     def _add(
@@ -272,7 +278,8 @@ class SessionState:
         if first:
             self.history.extend(piece)
         else:
-            self.history.append(piece, static, self.began_static)
+            changed = self.kernels is not self.recorded
+            self.history.append(piece, static, self.began_static, changed)
 
     def spill(
         self, system: System, times: np.ndarray, wanted: np.ndarray, static: bool = False

@@ -53,6 +53,7 @@ class _File:
     ids: list[int] = field(default_factory=list)
     units: list[str] = field(default_factory=list)
     rows: list[np.ndarray] = field(default_factory=list)
+    kinds: list[str] = field(default_factory=list)
     title: str = ""
     program: str = ""
     texts: dict[str, str] = field(default_factory=dict)
@@ -148,7 +149,7 @@ def _take(found: _File, event: str, element: Element) -> None:
     tag = _tag(element)
     if event == "start":
         if tag == "StepMap":  # of several analyses the last one counts
-            found.names, found.ids, found.units, found.rows = [], [], [], []
+            found.names, found.ids, found.units, found.rows, found.kinds = [], [], [], [], []
     elif tag == "Entity":
         _take_entity(found, element)
     elif tag == "Step":
@@ -198,6 +199,7 @@ def _take_step(found: _File, step: Element) -> None:
         )
     if len(found.rows) < 2:
         found.decimals = max(found.decimals, *map(_decimals, words))
+    found.kinds.append(step.get("type", ""))
     found.rows.append(np.array(words, dtype=float))
 
 
@@ -215,7 +217,8 @@ def _results(found: _File) -> Results:
         raise FormatError(f"'{min(repeated)}' is there twice")
     order = np.argsort(np.argsort(found.ids, kind="stable"))  # numbers are in the order of the ids
     table = np.array(found.rows).reshape(len(found.rows), len(found.names))[:, order]
-    table = _without_repeated_times(table, found.names.index("time"))
+    if not found.texts:
+        table = _without_repeated_times(table, found.names.index("time"), found.kinds)
     channels = {}
     for column, (name, unit) in enumerate(zip(found.names, found.units, strict=True)):
         symbol, factor = _symbol(unit)
@@ -246,10 +249,12 @@ def _with_run(found: _File, table: np.ndarray, channels: dict[str, Channel]) -> 
     return replace(own, names=tuple(kept), values=ordered, printed=Printed(found.decimals))
 
 
-def _without_repeated_times(table: np.ndarray, at: int) -> np.ndarray:
-    """Of steps at one time that follow each other the last: it is what the next analysis has."""
-    time = table[:, at]
-    last = np.append(time[1:] != time[:-1], True)[: len(time)]
+def _without_repeated_times(table: np.ndarray, at: int, kinds: list[str]) -> np.ndarray:
+    """Of steps at one time that follow each other the last, which is what the next analysis has,
+    and equilibria that another one follows.
+    """
+    time, static = table[:, at], np.array(kinds) == "static"
+    last = np.append((time[1:] != time[:-1]) | (static[1:] & static[:-1]), True)[: len(time)]
     return table[last]
 
 
