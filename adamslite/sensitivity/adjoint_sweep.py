@@ -24,9 +24,9 @@ SIAM J. Sci. Comput. 24 (2003) 1076 (adjoint DAE).
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -38,10 +38,10 @@ from adamslite.integrators.contract import (
     DONE,
     OUTPUTS,
     POSITION_ROWS,
+    STATE_ORIGIN,
 )
 from adamslite.integrators.projection import RATES
-from adamslite.kernels.code.workspace import ACCELERATION as ACCELERATION_AT
-from adamslite.kernels.code.workspace import ALPHA
+from adamslite.kernels.code.workspace import TIME
 from adamslite.sensitivity.adjoint_columns import Seed
 from adamslite.sensitivity.adjoint_formula import Row, gammas, vector_rates, way_of
 from adamslite.sensitivity.adjoint_tape import SINGULAR, Taken
@@ -50,6 +50,7 @@ from adamslite.sensitivity.begin import AHEAD
 from adamslite.sensitivity.transposed import (
     FACTOR_RATES,
     FACTOR_STEP,
+    GUARDS,
     SOLVE_RATES,
     SOLVE_STEP,
     TAKE,
@@ -61,6 +62,8 @@ if TYPE_CHECKING:
 GRAZES = "an event at t = {t:.6g} only just happens: its time has no derivative"
 # A guard that changes by less than this share of its terms changes by round-off.
 GRAZING = 1e-9
+# As in :mod:`adamslite.sensitivity.start`.
+NEAR, SAME = 0.01, 1e-9
 
 
 @dataclass
@@ -79,6 +82,7 @@ class Sweep(Taken):
     def __init__(self, system: System) -> None:
         super().__init__(system)
         self.bar = np.zeros((ROWS, self.w))
+        self.guards = system.sizes.clocks + system.sizes.watched
 
     def back(self, seeds: Mapping[int, Seed]) -> Derivatives:
         """``seeds``: weights of what was written at output times, by their numbers."""
@@ -89,6 +93,7 @@ class Sweep(Taken):
                 continue  # nothing was asked for from here on
             self._remember(row.memory)
             if not row.is_step:
+                self._reset(k)
                 self._event(k)
                 continue
             for output in row.outputs:
@@ -97,6 +102,7 @@ class Sweep(Taken):
             self._step(k, row)
             if row.fresh:
                 self._begin(k - 1, row)
+            self._reset(k)
         y = self.bar[0].copy()
         for output in self.rows[0].outputs:
             if output in seeds:
@@ -260,43 +266,70 @@ class Sweep(Taken):
 
     def _event(self, k: int) -> None:
         """Sensitivities of velocities and states jump where branches change."""
-        system, n, nw = self.system, self.n, self.system.nw
-        before, behind = self._workspace(k - 1), self._workspace(k)
-        old, new = before[nw:], behind[nw:]
-        count = system.sizes.clocks + system.sizes.watched
-        changed = np.flatnonzero((old != new)[:count] & (old != 0.0)[:count])
-        if not changed.size:
+        before, behind, row = self._workspace(k - 1), self._workspace(k), self.rows[k]
+        old, new = (W[self.system.nw :][: self.guards] for W in (before, behind))
+        changed = np.flatnonzero((old != new) & (old != 0.0)).tolist()
+        if not changed:
             return
-        system.W[:] = before
-        self._settle(float(before[0]))
-        weights = self.weights
-        change = np.empty(n + system.ns)
-        change[weights.x] = system.a[weights.x] - behind[weights.wx + ACCELERATION_AT]
-        change[self.phi] = system.a[self.phi] - behind[weights.wphi + ALPHA]
-        change[n:] = system.rd[: system.ns] - behind[weights.rate]
-        total = float(self.bar[0, n:] @ change)
-        if total == 0.0:
-            return
-        speed = self._speed(int(changed[0]), float(before[0]))
-        if speed != 0.0:
-            sl, _ = weights.of_guard(int(changed[0]), -total / speed)
-            self.bar[0] += self._accelerations(sl)
+        after, rates = self._rates_with(behind), self._rates_with(before)
+        here, found = self.system.W.copy(), np.zeros(self.w)
+        self._do(GUARDS)
+        value = self.system.guard[self.system.nw :][: self.guards] - 0.5 * (old + new)
+        value[: self.system.sizes.clocks] = 0.0
+        slopes = {g: self._slopes_of(g, row.t) for g in changed}
+        moving = [g for g in changed if slopes[g][0] != 0.0]
+        leaders = [g for g in moving if abs(value[g]) <= NEAR * row.h * abs(slopes[g][0])] or moving
+        surfaces, jumps = _surfaces(slopes, leaders), [rates - after]
+        if len(surfaces) > 1:
+            follow = [g for g in changed if g not in leaders]
+            jumps = [0.5 * (rates - self._rates_with(before, each, new, follow)
+                            + self._rates_with(behind, each, old, follow) - after)
+                     for each in surfaces]  # fmt: skip
+        self.system.W[:] = here
+        for (guard, *_), jump in zip(surfaces, jumps, strict=False):
+            if weight := float(self.bar[0, self.n :] @ jump):
+                sl, _ = self.weights.of_guard(guard, -weight / slopes[guard][0])
+                found += self._accelerations(sl)
+        self.bar[0] += found
 
-    def _speed(self, guard: int, t: float) -> float:
-        """How fast a guard changes."""
-        system, n, first = self.system, self.n, self.first
+    def _rates_with(
+        self, W: np.ndarray, guards: Iterable[int] = (), branches: Any = (), free: Any = ()
+    ) -> np.ndarray:
+        """Accelerations and rates of states (n + ns,) at a workspace with other branches of some
+        guards; those that are ``free`` are evaluated as they are.
+        """
+        system = self.system
+        system.W[:] = W
+        for g in guards:
+            system.W[system.nw + g] = branches[g]
+        for g in free:
+            system.W[system.nw + g] = 0.0
+        self._settle(float(W[0]))
+        return np.concatenate([system.a[: self.n], system.rd[: system.ns]])
+
+    def _slopes_of(self, guard: int, t: float) -> tuple[float, np.ndarray]:
+        """How fast a guard changes; its slopes by the state, the time and all numbers."""
+        system, G, n = self.system, self.weights.slopes_of_w, self.n
         kept = [each.copy() for each in self.weights.numbers.arrays()]
         sl, by_time = self.weights.of_guard(guard, 1.0)
+        G[TIME] = 0.0
+        y = self._accelerations(sl)
+        slopes = [y, np.array([by_time + G[TIME]])]
         for each, before in zip(self.weights.numbers.arrays(), kept, strict=True):
+            slopes.append((each - before).ravel())
             each[:] = before
-        terms = np.concatenate([
-            sl.q * system.u[:n], sl.u * system.a[:n], sl.z[first:] * system.rd[: system.ns],
-            [by_time],
-        ])  # fmt: skip
+        rates = np.concatenate([system.u[:n], system.a[:n], system.rd[: system.ns], [1.0]])
+        terms = np.concatenate(slopes[:2]) * rates
         speed = float(terms.sum())
         if speed != 0.0 and abs(speed) <= GRAZING * float(np.abs(terms).sum()):
             raise UsageError(GRAZES.format(t=t))
-        return speed
+        return speed, np.concatenate(slopes)
+
+    def _reset(self, k: int) -> None:
+        """States that count from another value behind row ``k`` than before it began at zero."""
+        at = self.weights.rate - 1 + STATE_ORIGIN
+        before, behind = self._workspace(k - 1), self._workspace(k)
+        self.bar[:, 2 * self.n :][:, before[at] != behind[at]] = 0.0
 
     def _project(self, y: np.ndarray) -> None:
         """Velocities, then positions at the start were moved onto the constraints."""
@@ -318,3 +351,19 @@ class Sweep(Taken):
                 nu[n : n + system.holonomic] = 0.0
             sl = self.weights.of_rows(phases, nu)
             y += np.concatenate([sl.q, sl.u, sl.z[self.first :]])
+
+
+def _surfaces(slopes: Mapping[int, tuple[float, np.ndarray]], guards: list[int]) -> list[list[int]]:
+    """Guards whose times every number shifts alike, together."""
+    found: list[list[int]] = []
+    for g in guards:
+        own = slopes[g][1] / slopes[g][0]
+        size = np.abs(own).max()
+        for each in found:
+            speed, other = slopes[each[0]]
+            if np.abs(own - other / speed).max() <= SAME * size:
+                each.append(g)
+                break
+        else:
+            found.append([g])
+    return found

@@ -106,6 +106,6 @@ def rates_ahead(
         H, Y, y = S.history[number * S.room :], S.start[number * ROWS * w :], S.y[0:]
         for i in range(w):
             y[i] = H[i] + ahead * (Y[i] + 0.5 * ahead * Y[SECOND * w + i])
-        sensitive_accelerations(P, L, D, S, number, y)
+        sensitive_accelerations(P, L, D, S, number, y, 0.0)
         rates_of(P, S, y, Y[row * w :])
     return True

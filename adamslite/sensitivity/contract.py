@@ -70,7 +70,11 @@ class Forward(Record):
     state                (6 w,) the same of the run: rates, second, third; y, rates, workspace
     a, z, sd             derivatives of accelerations, of multipliers and variables, of rates
     guard                (W.size,) derivatives of guards; ``rate``: by the time
-    jump                 (n + ns,) accelerations and rates in front of an event
+    jump                 (n + ns,) accelerations and rates of states behind an event
+    speed, kind          of each guard: by the time, whether it leads an event or follows
+    shift                (np, guards) derivatives of the times at which guards change
+    several, coupled     events at one time that a number moves apart, and states that are reset;
+                         events whose order matters
     record               (np, nt, nw + n_out) derivatives of the record
     row                  the next row of the record
     h, order             of the last step
@@ -103,6 +107,11 @@ class Forward(Record):
     guard: Reals
     rate: Reals
     jump: Reals
+    speed: Reals
+    kind: Reals
+    shift: Reals
+    several: int
+    coupled: int
     record: Reals
     stages: Reals
     row: int

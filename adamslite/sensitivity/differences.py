@@ -45,7 +45,7 @@ from adamslite.sensitivity.corrector import (
     renewed,
 )
 from adamslite.sensitivity.outputs import write_outputs
-from adamslite.sensitivity.start import at_start, jump
+from adamslite.sensitivity.start import at_start, jump, reset_states
 
 
 @native
@@ -56,14 +56,15 @@ def by_differences(P: Problem, L: Plan, D: Tangents, S: Forward) -> int:
         return SINGULAR_MASS
     fresh = True
     for row in range(1, T.rows):
-        here = T.data[row * T.width :]
+        here, before = T.data[row * T.width :], T.data[(row - 1) * T.width + TAPE_HEAD :]
         if here[TAPE_KIND] != AT_STEP:
-            jump(P, L, D, S, T.data[(row - 1) * T.width + TAPE_HEAD :], here[TAPE_HEAD:])
+            jump(P, L, D, S, before, here[TAPE_HEAD:], here[TAPE_STEP])
             copy(P.W, here[TAPE_HEAD:], P.W.size)
             forgotten(S)
             if row + 1 < T.rows:
                 fresh = restarts(T.data[(row - 1) * T.width :], T.data[(row + 1) * T.width :])
             continue
+        reset_states(P, D, S, before, here[TAPE_HEAD:])
         if fresh and not begin_history(P, L, D, S, here[TAPE_STEP], int(here[TAPE_ORDER])):
             return SINGULAR_MASS
         if fresh:
@@ -72,10 +73,10 @@ def by_differences(P: Problem, L: Plan, D: Tangents, S: Forward) -> int:
         copy(P.W, here[TAPE_HEAD:], P.W.size)
         if not step(P, L, D, S, here):
             return SINGULAR_MASS
-        before = S.row
+        written = S.row
         if not record(P, L, D, S, here):
             return SINGULAR_MASS
-        if S.row > before:
+        if S.row > written:
             copy(P.W, here[TAPE_HEAD:], P.W.size)
         track(P)
     return DONE

@@ -16,7 +16,7 @@ def write_outputs(P: Problem, L: Plan, D: Tangents, S: Forward, number: int, y: 
     the workspace's state; the matrix of accelerations is factored.
     """
     nw, n_out = P.sizes.nw, P.sizes.n_out
-    sensitive_accelerations(P, L, D, S, number, y)
+    sensitive_accelerations(P, L, D, S, number, y, 0.0)
     out = S.record[(number * P.times.size + S.row) * (nw + n_out) :]
     copy(out, D.dW, nw)
     written = out[nw:]

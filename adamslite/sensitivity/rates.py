@@ -62,14 +62,15 @@ def forget_rates(P: Problem, S: Forward) -> None:
 
 @native
 def sensitive_accelerations(
-    P: Problem, L: Plan, D: Tangents, S: Forward, number: int, y: Reals
+    P: Problem, L: Plan, D: Tangents, S: Forward, number: int, y: Reals, time: float
 ) -> None:
     """Derivatives of accelerations, multipliers, variables and s' into ``S``, and the whole of the
-    direction into ``dW``; the matrix of accelerations is factored.
+    direction into ``dW``, by a number, or (-1) in the direction ``y`` and ``time`` alone; the
+    matrix of accelerations is factored.
     """
     n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     forget_rates(P, S)
-    put_direction(P, D, y, S.a, S.z, S.sd, 0.0)
+    put_direction(P, D, y, S.a, S.z, S.sd, time)
     tangent(P, D, number, ACCELERATION, P.F)
     for k in range(n + first + ns, P.sizes.nz):
         P.F[k] = 0.0
@@ -80,7 +81,7 @@ def sensitive_accelerations(
         S.z[k] = 0.0 - P.F[n + k]
     for k in range(ns):
         S.sd[k] = 0.0 - P.F[n + first + k]
-    put_direction(P, D, y, S.a, S.z, S.sd, 0.0)
+    put_direction(P, D, y, S.a, S.z, S.sd, time)
     put_signals(P, D, number)
 
 

@@ -43,7 +43,7 @@ from adamslite.sensitivity.corrector import WORST_RATE, farthest, farthest_apart
 from adamslite.sensitivity.outputs import write_outputs
 from adamslite.sensitivity.rates import spun
 from adamslite.sensitivity.stage_error import note_stage_errors
-from adamslite.sensitivity.start import at_start, jump
+from adamslite.sensitivity.start import at_start, jump, reset_states
 from adamslite.sensitivity.tangents import clear, put_direction, tangent
 
 # Rows of a history: the start of the step, three stages, their rates, and behind them z.
@@ -70,17 +70,17 @@ def by_stages(P: Problem, L: Plan, D: Tangents, S: Forward) -> int:
         return SINGULAR_MASS
     S.h, S.age, S.factored = 0.0, KEEP_STEPS, 0.0
     for row in range(1, T.rows):
-        here = T.data[row * T.width :]
+        here, before = T.data[row * T.width :], T.data[(row - 1) * T.width + TAPE_HEAD :]
         if here[TAPE_KIND] != AT_STEP:
-            jump(P, L, D, S, T.data[(row - 1) * T.width + TAPE_HEAD :], here[TAPE_HEAD:])
+            jump(P, L, D, S, before, here[TAPE_HEAD:], here[TAPE_STEP])
             S.h, S.age = 0.0, KEEP_STEPS
             continue
+        reset_states(P, D, S, before, here[TAPE_HEAD:])
         lay_stages(P, S, here)
         if not by_matrices(P, L, D, S, here[TAPE_STEP]):
             return SINGULAR_MASS
         if not record(P, L, D, S, here):
             return SINGULAR_MASS
-        before = T.data[(row - 1) * T.width + TAPE_HEAD :]
         note_stage_errors(P, L, D, S, before, ROWS * S.width, z_width(P), here[TAPE_STEP])
         for number in range(D.count):
             H = S.history[number * S.room :]

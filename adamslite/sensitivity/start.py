@@ -22,19 +22,27 @@ from adamslite.integrators.accelerations import (
     solve_accelerations,
 )
 from adamslite.integrators.audit_record import TAPE_HEAD, TAPE_TIME
-from adamslite.integrators.contract import POSITION_ROWS, Problem
+from adamslite.integrators.contract import POSITION_ROWS, STATE_ORIGIN, Problem
 from adamslite.integrators.linalg.plan import Plan
-from adamslite.integrators.motion_equations import PART
+from adamslite.integrators.motion_equations import WATCH, guard_values
 from adamslite.integrators.projection import RATES
-from adamslite.kernels.code.workspace import ACCELERATION, ALPHA
 from adamslite.native.translate import Reals, call_address, copy, native, rare, seldom
 from adamslite.sensitivity.contract import Forward, Tangents
 from adamslite.sensitivity.outputs import write_outputs
 from adamslite.sensitivity.rates import forget_rates, sensitive_accelerations, take_state
-from adamslite.sensitivity.tangents import clear, put_direction, put_signals, tangent
+from adamslite.sensitivity.tangents import clear, put_direction, tangent
 
 # A guard that changes by less than this of what it changes by with a number has no time.
 GRAZING = 1e-9
+# A guard leads an event when it is zero within this share of the step that ends there; others
+# follow: their values jump.
+NEAR = 0.01
+# What a changed guard does: one of those that every number shifts alike leads; MEMBER and the
+# number of the guard that leads.
+LEADER, FOLLOWER, MEMBER = 1.0, 2.0, 3.0
+# Times that differ by less than this share are one; jumps that differ by more than that one hang on
+# the order of changes.
+SAME, COUPLED = 1e-9, 1e-6
 
 
 @native
@@ -89,67 +97,159 @@ def at_start(P: Problem, L: Plan, D: Tangents, S: Forward) -> bool:
 
 @native
 @seldom
-def jump(P: Problem, L: Plan, D: Tangents, S: Forward, before: Reals, behind: Reals) -> None:
-    """Sensitivities behind an event, with the workspaces on both its sides."""
-    n, ns, nw = P.sizes.n, P.sizes.ns, P.sizes.nw
-    guard = changed_guard(P, before, behind)
-    if guard < 0:
-        return
-    copy(P.W, before, P.W.size)
-    take_state(P)
-    if not accelerations(P, L, before[0], P.q, P.u, P.a, P.z, P.rd):
-        return
-    note_jump(P, S, behind)
-    note_rates(P, S)
-    forget_rates(P, S)
-    put_direction(P, D, S.rate, S.a, S.z, S.sd, 1.0)
-    put_signals(P, D, -1)
-    guards(P, D, S, -1)
-    speed = S.guard[nw + guard]
-    for number in range(D.count):
-        y = S.history[number * S.room :]
-        sensitive_accelerations(P, L, D, S, number, y)
-        guards(P, D, S, number)
-        change = S.guard[nw + guard]
-        if abs(speed) <= GRAZING * abs(change):
-            S.grazed += 1
-        elif speed != 0.0:
-            shift = 0.0 - change / speed
-            for i in range(n + ns):
-                y[n + i] += S.jump[i] * shift
+def jump(
+    P: Problem, L: Plan, D: Tangents, S: Forward, before: Reals, behind: Reals, h: float
+) -> None:
+    """Sensitivities behind an event, with the workspaces on both its sides and the step before.
+
+    Of several guards that change at one time each has the mean of its jumps as the first and as
+    the last of them; where these differ, order matters, and there is no derivative.
+    """
+    n, count, leaders = P.sizes.n, P.sizes.clocks + P.sizes.watched, 0
+    clear(S.kind, count)
+    known = has_changed(P, before, behind) and find_rates(P, L, S, behind, behind, -1, S.jump)
+    if known and find_rates(P, L, S, before, before, -1, S.rate[n:]):
+        leaders = shift_times(P, L, D, S, before, behind, h)
+    S.several += 1 if leaders > 1 else 0
+    for k in range(count if leaders > 0 else 0):
+        if S.kind[k] == LEADER and find_jump(P, L, S, before, behind, k, leaders > 1):
+            for number in range(D.count):
+                y, shift = S.history[number * S.room :], S.shift[number * count + k]
+                for i in range(n, S.width):
+                    y[i] += S.state[i] * shift
+    reset_states(P, D, S, before, behind)
 
 
 @native
-def note_jump(P: Problem, S: Forward, behind: Reals) -> None:
-    """How much larger accelerations and rates of states are in place than behind the event."""
-    n, ns = P.sizes.n, P.sizes.ns
-    for b in range(P.sizes.nb):
-        i, o = P.body[b].first, P.body[b].at
-        for k in range(3):
-            S.jump[i + k] = P.a[i + k] - behind[o + ACCELERATION + k]
-            if P.body[b].width == PART:
-                S.jump[i + 3 + k] = P.a[i + 3 + k] - behind[o + ALPHA + k]
-    for k in range(ns):
-        S.jump[n + k] = P.rd[k] - behind[P.scalar[P.sizes.m + P.sizes.nv + k] + 1]
+def has_changed(P: Problem, before: Reals, behind: Reals) -> bool:
+    """Whether any guard has another branch behind an event."""
+    for k in range(P.sizes.nw, P.sizes.nw + P.sizes.clocks + P.sizes.watched):
+        if before[k] != behind[k] and before[k] != 0.0:
+            return True
+    return False
 
 
 @native
-def note_rates(P: Problem, S: Forward) -> None:
-    """The rates of the state in place."""
-    for i in range(P.sizes.n):
-        S.rate[i], S.rate[P.sizes.n + i] = P.u[i], P.a[i]
-    for k in range(P.sizes.ns):
-        S.rate[2 * P.sizes.n + k] = P.rd[k]
-
-
-@native
-def changed_guard(P: Problem, before: Reals, behind: Reals) -> int:
-    """The first guard whose branch has changed, -1 for none."""
+def find_rates(
+    P: Problem, L: Plan, S: Forward, here: Reals, there: Reals, guard: int, found: Reals
+) -> bool:
+    """Accelerations and rates of states at the workspace ``here``, one guard and those that change
+    with it (-1: none) as ``there``, followers evaluated as they are; False without any.
+    """
+    copy(P.W, here, P.W.size)
     for k in range(P.sizes.clocks + P.sizes.watched):
-        old, new = before[P.sizes.nw + k], behind[P.sizes.nw + k]
-        if old != new and old != 0.0:
-            return k
-    return -1
+        at = P.sizes.nw + k
+        if k == guard or S.kind[k] == MEMBER + float(guard):
+            P.W[at] = there[at]
+        elif S.kind[k] == FOLLOWER:
+            P.W[at] = 0.0
+    take_state(P)
+    known = accelerations(P, L, P.W[0], P.q, P.u, P.a, P.z, P.rd)
+    copy(found, P.a, P.sizes.n)
+    copy(found[P.sizes.n :], P.rd, P.sizes.ns)
+    return known
+
+
+@native
+def shift_times(
+    P: Problem, L: Plan, D: Tangents, S: Forward, before: Reals, behind: Reals, h: float
+) -> int:
+    """Derivatives by each number of the time at which each changed guard vanishes, the state
+    before the event being in place; how many of these times move apart.
+    """
+    nw, count, leaders = P.sizes.nw, P.sizes.clocks + P.sizes.watched, 0
+    copy(S.rate, P.u, P.sizes.n)
+    sensitive_accelerations(P, L, D, S, -1, S.rate, 1.0)
+    guards(P, D, S, -1)
+    copy(S.speed, S.guard[nw:], count)
+    sort_guards(P, S, before, behind, h)
+    for number in range(D.count):
+        shift = S.shift[number * count :]
+        sensitive_accelerations(P, L, D, S, number, S.history[number * S.room :], 0.0)
+        guards(P, D, S, number)
+        for k in range(count):
+            change, speed, shift[k] = S.guard[nw + k], S.speed[k], 0.0
+            if S.kind[k] == LEADER and change != 0.0:
+                if abs(speed) <= GRAZING * abs(change):
+                    S.grazed += 1
+                else:
+                    shift[k] = 0.0 - change / speed
+    for k in range(count):
+        for first in range(k):
+            if (
+                S.kind[k] == LEADER
+                and S.kind[first] == LEADER
+                and moves_with(D, S, k, first, count)
+            ):
+                S.kind[k] = MEMBER + float(first)
+        leaders += 1 if S.kind[k] == LEADER else 0
+    return leaders
+
+
+@native
+def sort_guards(P: Problem, S: Forward, before: Reals, behind: Reals, h: float) -> None:
+    """Sort changed guards: leaders vanish at the event, followers jump over zero with others."""
+    count, leaders = P.sizes.clocks + P.sizes.watched, False
+    guard_values(P, WATCH)
+    for k in range(count):
+        at = P.sizes.nw + k
+        old, value, S.kind[k] = before[at], P.guard[at], 0.0
+        if old != behind[at] and old != 0.0:
+            value -= 0.5 * (old + behind[at])  # of relations nothing
+            near = k < P.sizes.clocks or abs(value) <= NEAR * h * abs(S.speed[k])
+            S.kind[k] = LEADER if near and S.speed[k] != 0.0 else FOLLOWER
+            leaders = leaders or S.kind[k] == LEADER
+    for k in range(0 if leaders else count):
+        S.kind[k] = LEADER if S.kind[k] == FOLLOWER else 0.0
+
+
+@native
+def moves_with(D: Tangents, S: Forward, guard: int, other: int, count: int) -> bool:
+    """Whether every number shifts the times of two guards alike."""
+    for number in range(D.count):
+        a, b = S.shift[number * count + guard], S.shift[number * count + other]
+        if abs(a - b) > SAME * max(abs(a), abs(b)):
+            return False
+    return True
+
+
+@native
+def find_jump(
+    P: Problem, L: Plan, S: Forward, before: Reals, behind: Reals, guard: int, several: bool
+) -> bool:
+    """The jump of accelerations and rates of states by one guard into ``S.state``, from n on; False
+    where there are no accelerations between.
+    """
+    n, w, apart, size = P.sizes.n, S.width, 0.0, 0.0
+    first, last = S.state[w:], S.state[2 * w :]
+    copy(first, S.jump, w - n)
+    copy(last, S.rate[n:], w - n)
+    if several:
+        if not find_rates(P, L, S, before, behind, guard, first):
+            return False
+        if not find_rates(P, L, S, behind, before, guard, last):
+            return False
+    for i in range(w - n):
+        a, b = S.rate[n + i] - first[i], last[i] - S.jump[i]
+        apart, size = max(apart, abs(a - b)), max(size, max(abs(a), abs(b)))
+        S.state[n + i] = 0.5 * (a + b)
+    S.coupled += 1 if apart > COUPLED * size else 0
+    return True
+
+
+@native
+def reset_states(P: Problem, D: Tangents, S: Forward, before: Reals, behind: Reals) -> None:
+    """States of DIFF that count from another value between two workspaces begin at zero, whatever
+    a number is.
+    """
+    for k in range(P.sizes.ns):
+        o = P.scalar[P.sizes.m + P.sizes.nv + k] + STATE_ORIGIN
+        if before[o] != behind[o]:
+            S.several += 1
+            for number in range(D.count):
+                y = S.history[number * S.room + 2 * P.sizes.n + k :]
+                for row in range(S.order + 3):
+                    y[row * S.width] = 0.0
 
 
 @native

@@ -247,7 +247,7 @@ def followed(
     collected = Collected(system, found, tangent_groups(system))
     reach = float(max(np.abs(system.W[: system.nw]).max(), 1.0))
     count, w = collected.record.count, 2 * system.n + system.ns
-    size = system.nw + system.sizes.n_out
+    size, guards = system.nw + system.sizes.n_out, system.W.size - system.nw
     made = Forward.zeros()
     made.exact, made.limit = EXACT, CORRECTED * system.settings.error
     made.width, made.room = w, max(room(w), 8 * w + 3 * (system.nz + system.holonomic))
@@ -264,6 +264,7 @@ def followed(
         "kept": np.zeros(KEPT * count * (system.m + system.nv) + 1),
         "v": np.zeros(system.n), "mu": np.zeros(system.holonomic + 1),
         "rate": np.zeros(w), "jump": np.zeros(w),
+        "speed": np.zeros(guards), "kind": np.zeros(guards), "shift": np.zeros(count * guards + 1),
         "record": np.zeros(count * len(system.times) * size + 1),
     }  # fmt: skip
     for name, value in arrays.items():

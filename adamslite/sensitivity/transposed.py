@@ -9,7 +9,7 @@ from adamslite.integrators.linalg.blocks import factor
 from adamslite.integrators.linalg.complex_transposed import solve_transposed_complex
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.linalg.transposed import solve_transposed
-from adamslite.integrators.motion_equations import jacobian, track
+from adamslite.integrators.motion_equations import WATCH, guard_values, jacobian, track
 from adamslite.integrators.radau.coefficients import TO_MODES, TO_STAGES
 from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.history import Z_ROWS
@@ -27,7 +27,7 @@ from adamslite.sensitivity.stages import restore_history
 ENTRY = "adamslite.sensitivity.transposed.transposed"
 # What is to be done.
 FACTOR_STEP, SOLVE_STEP, FACTOR_RATES, SOLVE_RATES, TAKE, TRACK, BLOCKS, LAY = range(8)
-FACTOR_STAGES, SOLVE_STAGES, PUT_STAGE = 8, 9, 10
+FACTOR_STAGES, SOLVE_STAGES, GUARDS, PUT_STAGE = 8, 9, 10, 11
 
 
 @native
@@ -40,7 +40,8 @@ def transposed(P: Problem, L: Plan, task: int, cu: float) -> int:
     Jacobian of phases ``cu`` with the coefficients in place; LAY: the history of the step with the
     row ``cu`` of the tape; FACTOR_STAGES: both matrices at its middle stage, for a step of size
     ``cu``; SOLVE_STAGES: the transposed increments of its stages in the place of their residuals;
-    PUT_STAGE and the next two: a stage of it, of a step of size ``cu``.
+    GUARDS: values of watched guards; PUT_STAGE and the next two: a stage of it, of a step of size
+    ``cu``.
     """
     if task == FACTOR_STEP or task == FACTOR_RATES or task == FACTOR_STAGES:
         return DONE if factored(P, L, task, cu) else SINGULAR_MASS
@@ -50,6 +51,8 @@ def transposed(P: Problem, L: Plan, task: int, cu: float) -> int:
         solve_transposed(L, P.LA, P.pivots_a, P.F, P.x, P.work)
     elif task == SOLVE_STAGES:
         transposed_increments(P, L)
+    elif task == GUARDS:
+        guard_values(P, WATCH)
     elif task == TAKE:
         take_state(P)
     elif task == TRACK:
