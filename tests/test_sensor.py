@@ -344,3 +344,55 @@ END
     for sensor in ("SENSOR/1", "SENSOR/2"):
         assert results.meta["sensor passed"].count(f"{sensor} at t = 0.5") == 1
     assert "later" not in results.meta["sensor passed"]
+
+
+PEAK = """A mass on a spring, its sensor just below a peak
+UNITS/SYSTEM=MKS
+PART/1, GROUND
+MARKER/1, PART=1
+POINT_MASS/2, MASS=1, QG={start}, 0, 0
+MARKER/2, POINT_MASS=2
+VFORCE/1, I=2, J_PART=1, FX=-{stiffness}*DX(2)
+SENSOR/1, FUNCTION={function}\\, VALUE={value}, ERROR={error}, {relation}, HALT
+SIMULATE/DYNAMIC, END={end}, STEPS={steps}
+END
+"""
+
+
+@pytest.mark.numerical
+@pytest.mark.parametrize("method", ["ABAM", "RKF45", "AUTO", "RADAU"])
+def test_a_value_just_below_a_peak_is_met(method: str) -> None:
+    """x = A cos wt and v = -A w sin wt come within 1e-5 to 1e-2 of the amplitude of the value;
+    long steps of the explicit formula pass the peak whole.
+    """
+    rng = np.random.default_rng(5)
+    for _ in range(12):
+        w, a = 10 ** rng.uniform(0, 1.5), 10 ** rng.uniform(-1, 1)
+        share = 1 - 10 ** rng.uniform(-5, -2)
+        relation = str(rng.choice(["GE", "LE", "EQ"]))
+        sign, end, steps = -1 if relation == "LE" else 1, 7.0 / w, int(rng.choice([1, 3, 30]))
+        by_speed = bool(rng.integers(2))
+        top = a * w if by_speed else a
+        first = pi * (1.5 if sign > 0 else 0.5) if by_speed else pi
+        start = a if by_speed else -sign * a
+        deck = PEAK.format(
+            start=start, stiffness=w * w, function="VX(2)" if by_speed else "DX(2)",
+            value=sign * share * top, error=1e-9 * top, relation=relation, end=end, steps=steps,
+        )  # fmt: skip
+        for error in (1e-6, 1e-8):
+            results = simulate(deck, integrator=method, error=error)
+            assert results.outcome is Outcome.HALTED
+            wide = np.arccos(share) / w
+            time = first / w - wide
+            # A value off by e of the amplitude moves the time by e/(w sqrt(2 (1 - share))).
+            assert abs(results.time[-1] - time) < 0.05 * wide + 30 * error / (w * wide * w * top)
+
+
+def test_auto_chooses_a_method_that_locates_sensors() -> None:
+    """Equal steps of VERLET would suit the mass, but watch no sensor."""
+    deck = PEAK.format(
+        start=1, stiffness=100, function="VX(2)", value=9, error=0, relation="GE", end=1, steps=100
+    )
+    results = simulate(deck, integrator="AUTO")
+    assert results.outcome is Outcome.HALTED
+    assert abs(results.time[-1] - (1.5 * pi - np.arccos(0.9)) / 10) < 1e-3

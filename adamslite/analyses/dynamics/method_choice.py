@@ -224,6 +224,6 @@ def _picked(system: System, times: np.ndarray, error: float) -> tuple[str, ...]:
         return "HHT" if error >= COARSE and not tied else implicit, f"implicit, because {reason}"
     unfit = tied or what_turns(system) or what_changes(system, 0.0)
     few = meeting and len(system.guarded["watch"]) <= FEW_GUARDS
-    if error >= COARSE and not (unfit or few):
+    if error >= COARSE and not (unfit or few or system.numbering.sensors):
         return "VERLET", f"explicit, because nothing ties the masses together and {reason}"
     return "RKF45", f"explicit, because {reason}", "RADAU" if meeting else ""

@@ -49,13 +49,15 @@ from __future__ import annotations
 from adamslite.integrators.accelerations import accelerations
 from adamslite.integrators.audit.balance import audit_from
 from adamslite.integrators.contract import Problem
-from adamslite.integrators.event_rows import CHANGES, CLOSEST, END, HIGH_ROW, HUGE, NONE
+from adamslite.integrators.event_rows import CHANGES, CLOSEST, END, HIGH_ROW, HUGE, LOW_ROW, NONE
 from adamslite.integrators.events.dips import share_of_zone
 from adamslite.integrators.events.guards import (
     CHATTER,
     HARMLESS,
     MOST_CRAWLED,
+    branch_of,
     hold_watch,
+    is_relation,
     look_at_start,
     note_changes,
     release_watch,
@@ -66,7 +68,7 @@ from adamslite.integrators.events.guards import (
 from adamslite.integrators.events.sensors import sense, start_sensors
 from adamslite.integrators.events.stops import is_stop, next_stop, set_clock, set_pace
 from adamslite.integrators.linalg.plan import Plan
-from adamslite.integrators.motion_equations import track
+from adamslite.integrators.motion_equations import WATCH, guard_values, track
 from adamslite.native.translate import native, rare, seldom
 
 
@@ -149,27 +151,49 @@ def note_branches(P: Problem, L: Plan, t: float, row: int) -> None:
 
 @native
 def decides_nothing(P: Problem, L: Plan, t: float) -> bool:
-    """Whether the branches of guards that were let go give the same accelerations."""
-    hold_free(P, 0.0, HUGE)
-    known = accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd)
-    for i in range(P.sizes.n):
+    """Whether the branches of guards that were let go give the same accelerations: those of the
+    present state, each of them changed alone, and all of them changed, with other guards evaluated
+    as they are.  Guards of one jump change together (``e < 0`` and ``e > 0`` of IF): other
+    combinations mean nothing.
+    """
+    n, first, count = P.sizes.n, P.sizes.nw + P.sizes.clocks, P.sizes.watched
+    for k in range(count):
+        P.margin[LOW_ROW * count + k] = P.W[first + k]
+    release_watch(P)
+    known, largest = accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd), 0.0
+    guard_values(P, WATCH)
+    for i in range(n):
         P.trial[i] = P.a[i]
-    hold_free(P, HUGE, 0.0 - HUGE)
-    known = accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd) and known
-    hold_free(P, 0.0 - HUGE, 0.0)
-    largest = 0.0
-    for i in range(P.sizes.n):
-        largest = max(largest, abs(P.a[i] - P.trial[i]) / max(1.0, abs(P.u[i])))
+    for k in range(count):
+        if is_free(P, k):
+            P.W[first + k] = branch_of(P.kind[P.sizes.clocks + k], P.guard[first + k])
+    for k in range(count + 1):
+        if flip_free(P, k) > 0:
+            known = accelerations(P, L, t, P.q, P.u, P.a, P.z, P.rd) and known
+            for i in range(n):
+                largest = max(largest, abs(P.a[i] - P.trial[i]) / max(1.0, abs(P.u[i])))
+            flip_free(P, k)
+    for k in range(count):
+        P.W[first + k] = P.margin[LOW_ROW * count + k]
     return known and largest * P.settings.h_max <= HARMLESS * P.settings.error
 
 
 @native
-def hold_free(P: Problem, old: float, new: float) -> None:
-    """Another branch for the guards that were let go and have the ``old`` one."""
-    first, count = P.sizes.nw + P.sizes.clocks, P.sizes.watched
+def is_free(P: Problem, k: int) -> bool:
+    """Whether a relation was let go because it kept changing."""
+    free = P.margin[CHANGES * P.sizes.watched + k] < 0.0
+    return free and is_relation(P.kind[P.sizes.clocks + k])
+
+
+@native
+def flip_free(P: Problem, alone: int) -> int:
+    """Change the branch of one relation that was let go, or of all; returns how many changed."""
+    first, count, changed = P.sizes.nw + P.sizes.clocks, P.sizes.watched, 0
     for k in range(count):
-        if P.margin[CHANGES * count + k] < 0.0 and P.W[first + k] == old:
-            P.W[first + k] = new
+        if (k == alone or alone == count) and is_free(P, k):
+            P.W[first + k] = 0.0 - P.W[first + k]
+            changed += 1
+    return changed
 
 
 @native

@@ -285,9 +285,17 @@ def note_changes(P: Problem, t: float, row: int) -> None:
                 P.margin[often], P.margin[since] = 0.0, t
             P.margin[often] += 1.0
             if P.margin[often] > CHATTER:
-                slides = t - P.margin[since] <= SLIDING_SPAN * P.settings.h_max
-                if P.kind[P.sizes.clocks + k] >= JUMPS and slides:
+                jumps = P.kind[P.sizes.clocks + k] >= JUMPS
+                if jumps and keeps_returning(P, k, t, CHATTER + 1.0):
                     P.search.crawl = MOST_CRAWLED + 1
                 P.margin[often], P.W[first + k] = -1.0, 0.0
                 P.search.freed += 1
                 P.search.culprit = k
+
+
+@native
+def keeps_returning(P: Problem, k: int, t: float, changes: float) -> bool:
+    """Whether a guard has changed that often within a short time: both sides lead back."""
+    often, since = CHANGES * P.sizes.watched + k, SINCE * P.sizes.watched + k
+    soon = t - P.margin[since] <= SLIDING_SPAN * P.settings.h_max
+    return soon and P.margin[often] >= changes

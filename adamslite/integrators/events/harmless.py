@@ -4,11 +4,21 @@ from __future__ import annotations
 
 from adamslite.integrators.accelerations import accelerations
 from adamslite.integrators.contract import Problem
-from adamslite.integrators.event_rows import BEFORE, END, INSIDE, LOW_ROW, NONE
+from adamslite.integrators.event_rows import (
+    BEFORE,
+    CHANGES,
+    END,
+    INSIDE,
+    JUMPS,
+    LOW_ROW,
+    NONE,
+)
 from adamslite.integrators.events.guards import (
+    CHATTER,
     HARMLESS,
     SAME_TIME,
     crossing_share,
+    keeps_returning,
     margins,
     note_changes,
     remember_branches,
@@ -48,7 +58,7 @@ def take_harmless(P: Problem, L: Plan, phases: int, cu: float) -> None:
         turn_back(P)
         turn_over(P, END, share)
         harmless = small_change(P, L, phases, cu)
-    if harmless and not exposes(P) and not matters_before(P, L, phases, cu):
+    if harmless and not (exposes(P) or slides(P)) and not matters_before(P, L, phases, cu):
         forget(P)
     else:
         turn_back(P)
@@ -164,6 +174,20 @@ def exposes(P: Problem) -> bool:
         if same and P.margin[INSIDE * count + k] != P.margin[END * count + k]:
             return True
     return False
+
+
+@native
+def slides(P: Problem) -> bool:
+    """Whether a guard would be let go for the changes of this step where a value jumps: an event
+    decides whether the motion slides along the jump.
+    """
+    count, keeps_changing, jumps = P.sizes.watched, False, False
+    for k in range(count):
+        changes = P.margin[END * count + k] < 0.0
+        keeps_changing = keeps_changing or (changes and keeps_returning(P, k, P.W[0], CHATTER))
+        if P.kind[P.sizes.clocks + k] >= JUMPS:
+            jumps = jumps or changes or P.margin[CHANGES * count + k] < 0.0
+    return keeps_changing and jumps
 
 
 @native

@@ -1,13 +1,16 @@
 """The explicit formula at events: dense output of the tried step, and the restart.
 
 Within the tried step a cubic goes through both ends with their rates; it only has to say which
-branch changes first and about where, because the step is taken again to end there.
+branch changes first and about where, because the step is taken again to end there.  Where a guard
+dips towards zero without a change at the end, the polynomial of order 7 decides: steps are long,
+and the cubic errs by more than a peak may be above the value of a sensor.
 """
 
 from __future__ import annotations
 
 from adamslite.integrators.accelerations import mass_signature, put_state
 from adamslite.integrators.contract import NEWTON_FAILED, Problem
+from adamslite.integrators.event_rows import DIP
 from adamslite.integrators.events.events import change_here, pass_event
 from adamslite.integrators.events.search import (
     ends_there,
@@ -17,8 +20,9 @@ from adamslite.integrators.events.search import (
     starts_there,
 )
 from adamslite.integrators.explicit.control import Control
+from adamslite.integrators.explicit.dense_output import interpolated, late_stages
 from adamslite.integrators.explicit.error import LEAST_ERROR, first_step
-from adamslite.integrators.explicit.history import K_NEW, OLD
+from adamslite.integrators.explicit.history import BETWEEN, K_NEW, NEXT_STATE, OLD
 from adamslite.integrators.explicit.stages import exact_rates
 from adamslite.integrators.explicit.state import restore_state
 from adamslite.integrators.linalg.plan import Plan
@@ -28,13 +32,27 @@ from adamslite.native.translate import native, seldom
 
 
 @native
-def passes_crossing(P: Problem, C: Control) -> bool:
+def passes_crossing(P: Problem, L: Plan, C: Control) -> bool:
     """Whether a branch changes within the step that has passed its test, whose end is in the
     workspace: the first change is located.
     """
     if P.sizes.watched + P.sizes.zones == 0:
         return False
-    locate_between(P, C.t, C.h, C.width, OLD * C.size, K_NEW)
+    w, h, exact = C.size, C.h, False
+    between, end = P.history[BETWEEN * w :], P.history[NEXT_STATE * w :]
+    open_search(P, C.t, h)
+    while P.search.open:
+        if P.search.stage == DIP and not exact:
+            exact, C.late = True, late_stages(P, L, C, h)
+        if C.late:
+            interpolated(P, C, h, P.search.share, between)
+            exact_rates(P, L, C, C.t + P.search.share * h, between, P.trial)
+        else:
+            put_cubic(P, C)
+        judge(P)
+    if exact:
+        exact_rates(P, L, C, C.t + h, end, P.trial)
+    put_state(P, C.t + h, P.q, P.u, P.a, P.z, P.rd)
     return not ends_there(P)
 
 
@@ -49,27 +67,14 @@ def end_at_crossing(P: Problem, L: Plan, C: Control) -> int:
 
 
 @native
-def locate_between(P: Problem, t: float, h: float, width: int, old: int, late: int) -> None:
-    """Look for the first change of a branch within the tried step, whose end is in the workspace.
-
-    ``width``: rates of a stage; in ``P.history`` stages from 0, stage ``late`` belonging to the
-    end, the state at the start from ``old`` and behind it the one at the end.
+def put_cubic(P: Problem, C: Control) -> None:
+    """The tried step at the share of the search into the workspace, by the cubic through both ends
+    and their rates, with straight lines for accelerations, multipliers and variables.
     """
-    open_search(P, t, h)
-    while P.search.open:
-        put_cubic(P, t, h, P.search.share, width, old, late)
-        judge(P)
-    put_state(P, t + h, P.q, P.u, P.a, P.z, P.rd)
-
-
-@native
-def put_cubic(P: Problem, t: float, h: float, x: float, width: int, old: int, late: int) -> None:
-    """The tried step at the share ``x`` into the workspace, with straight lines for accelerations,
-    multipliers and variables.
-    """
-    n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
-    w = 2 * n + ns
-    y0, y1, k0, k1 = P.history[old:], P.history[old + w :], P.history, P.history[late * width :]
+    n, ns, first, width = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv, C.width
+    w, h, x = 2 * n + ns, C.h, P.search.share
+    y0, y1 = P.history[OLD * C.size :], P.history[NEXT_STATE * C.size :]
+    k0, k1 = P.history, P.history[K_NEW * width :]
     y, a, z = P.trial, P.x, P.F
     along = x * x * (3.0 - 2.0 * x)
     w0, w1 = h * x * (1.0 - x) * (1.0 - x), h * x * x * (x - 1.0)
@@ -85,7 +90,7 @@ def put_cubic(P: Problem, t: float, h: float, x: float, width: int, old: int, la
         z[k] = P.rz[k] + x * (P.z[k] - P.rz[k])
     for k in range(ns):
         z[first + k] = y[2 * n + k]
-    put_state(P, t + x * h, y, y[n:], a, z, P.rd)
+    put_state(P, C.t + x * h, y, y[n:], a, z, P.rd)
 
 
 @native

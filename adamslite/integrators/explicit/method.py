@@ -181,6 +181,7 @@ def advance(P: Problem, L: Plan, C: Control) -> int:
     if C.h < (P.settings.h_min if C.cautious else least_step(P)) or crawls(P, C.h):
         return stuck(P, L, C)
     note_try(P, C, QUICK_ORDER if C.quick else ORDER)
+    C.late = False
     if not stages(P, L, C, C.h):
         return after_failure(P, L, C)
     t = end_of_step(P, C, step_limit(P, C.row))
@@ -196,7 +197,7 @@ def advance(P: Problem, L: Plan, C: Control) -> int:
         return near_singularity(P, C)
     if left_branch(P, L, C):
         return pull_back(P, L, C)
-    if passes_crossing(P, C):
+    if passes_crossing(P, L, C):
         return end_at_crossing(P, L, C)
     return accept(P, L, C, t, error)
 
@@ -251,7 +252,7 @@ def accept(P: Problem, L: Plan, C: Control, t: float, error: float) -> int:
     note_violation(P, t)
     audit(P, L, t)
     keep_solution(P)
-    C.end, C.first_row, C.late, C.apart = t, C.row, False, False
+    C.end, C.first_row, C.apart = t, C.row, False
     C.accepted = error
     return complete(P, L, C)
 
