@@ -14,6 +14,7 @@ again what is short.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,8 +22,7 @@ import numpy as np
 
 from adamslite.errors import FormatError
 from adamslite.integrators import contract
-from adamslite.native.translate import Rows
-from adamslite.native.translate.records import ByReference, Nested, Record
+from adamslite.native.translate.records import ByReference, Nested, Record, Rows
 from adamslite.outputs.part_file import DAMAGED, Filed, PartFile, Stretch
 
 if TYPE_CHECKING:
@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 #: Arrays with addresses, and those that Python fills before a run.
 WITHOUT = frozenset(("group", "lane_runs", "times", "record", "stops", "paces"))
+#: Records that native operations leave alone, and that other threads write to.
+SHARED = ("settings", "block")
 #: The number of no run: a session that begins.
 NONE = -1
 ELSEWHERE = "it is of another run"
@@ -106,6 +108,23 @@ def _of_record(name: str, record: Record) -> Iterator[tuple[str, np.ndarray]]:
                 yield label, value.numbers if isinstance(value, Rows) else value
         else:
             yield label, record._ints[field.at : field.at + field.slots]
+
+
+@contextmanager
+def undisturbed(system: System) -> Iterator[None]:
+    """Restore the memory of a paused run on exit: operations may overwrite it in between.
+
+    Vectors of a method are scratch space of :mod:`adamslite.equations.operations`, so every
+    operation between two calls of a method belongs inside.
+    """
+    time = system.settings.t
+    kept = [(own, own.copy()) for name, own in arrays_of(system) if name not in SHARED]
+    try:
+        yield
+    finally:
+        system.settings.t = time
+        for own, values in kept:
+            own[:] = values
 
 
 def restore(system: System, arrays: Mapping[str, np.ndarray], path: Path) -> None:

@@ -19,7 +19,6 @@ from adamslite.analyses.initial.conditions import without_accelerations
 from adamslite.analyses.setup.run_options import MOST_COUNTED, Budget
 from adamslite.equations.engine import ints
 from adamslite.integrators import contract
-from adamslite.integrators.contract import SPECTRUM
 from adamslite.language.method import FIXED, FIXED_BY_HINIT, USUAL, method_of
 from adamslite.native.translate import Rows
 from adamslite.native.worker import Over, Worker, is_interrupted_here
@@ -309,11 +308,14 @@ def is_held_down(system: System) -> bool:
     """Whether forces decay within less than the last step, and faster than anything vibrates: what
     an explicit formula follows in vain and an implicit one steps over.
     """
+    from adamslite.analyses.dynamics.checkpoint import undisturbed  # few runs are judged
+
     step = float(system.report.h)
-    if system.run(SPECTRUM) != contract.DONE:
-        return False
-    decay, squared = float(system.report.damping), float(system.report.stiffness)
-    return decay * step > HELD_DOWN and decay * decay > squared
+    with undisturbed(system):
+        system.settings.t = float(system.report.t)
+        found = system.run(contract.SPECTRUM) == contract.DONE
+        decay, squared = float(system.report.damping), float(system.report.stiffness)
+    return found and decay * step > HELD_DOWN and decay * decay > squared
 
 
 def _watched(
