@@ -116,6 +116,10 @@ def simulate(
     with within_memory(memory):
         subject = prepared_for(scene, commands)
         session = Session(subject, progress, flags, without, audit, files, budget, journal)
+        second = partial(
+            _attempted, session.kernels, end, steps, commands=commands, no_reduction=no_reduction,
+            notes=False,
+        )  # fmt: skip
         kept = _columns_kept(session, wanted)
         _begin_files(session, journal, source)
 
@@ -126,6 +130,7 @@ def simulate(
             need_room(session.system, plan, kept, output, journal is not None, tables, files)
 
         cpu = _carried_out(session, plan, began, need_its_room)
+        session.again = partial(second, files=files.to_read, cpu_limit=budget.cpu_left)
         results = _results_in_memory(session, cpu, notes, source)
     if confirm and results.outcome is not Outcome.INTERRUPTED:
         again = partial(
@@ -138,6 +143,14 @@ def simulate(
 
 
 # Most runs need none of what the following functions import.
+
+
+def _attempted(*arguments: Any, **options: Any) -> Results | None:
+    """The results of `simulate`; None where there are none."""
+    try:
+        return simulate(*arguments, **options)
+    except UsageError:
+        return None
 
 
 def _tables_in_memory(journal: Journal | None, confirm: bool) -> int:

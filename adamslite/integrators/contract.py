@@ -107,6 +107,10 @@ NO_PACE = (-1e300, 1e300, 1e300)
 # Share of the limit of stability that equal steps of VERLET may take: the power iteration comes to
 # the eigenvalue from below.
 STABLE = 0.93
+
+# Share of the largest velocity from which a jolt is large: a fast vibration with 8 steps (HHT) or 3
+# steps (RADAU) a period, or an impact in as few.
+JOLT = 0.25
 # A state of DIFF in the workspace: its value, its rate, the value from which it counts.
 STATE_SIZE, STATE_ORIGIN = 3, 2
 MODE_DYNAMICS = 4.0

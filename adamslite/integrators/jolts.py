@@ -10,12 +10,11 @@ of an error is large.  What is left open is
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import Problem
+from adamslite.integrators.contract import JOLT, Problem
 from adamslite.native.translate import Reals, maximum, native
 
-# Share of the largest velocity from which a jolt is large: a fast vibration with 8 steps (HHT) or 3
-# steps (RADAU) a period, or an impact in as few.  Jolts below so many ERRORs are none.
-JOLT, UNFELT = 0.25, 100.0
+# Jolts below so many ERRORs are none.
+UNFELT = 100.0
 
 
 @native

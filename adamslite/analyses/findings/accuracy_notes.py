@@ -1,53 +1,111 @@
-"""What a run reports of its own accuracy where ERROR, which bounds a step, does not cover it.
+"""What a run reports of its own accuracy, which ERROR, a bound of each step, does not say.
 
-Every method adds up the errors that it estimated for its accepted steps.  Where nothing amplifies
-or damps them, their sum bounds what the end is off by; it is compared with the longest way of a
-body.  An oscillation between events (contacts, dead zones) amplifies them: its period depends on
-its speed, so that an error of one pass shifts every later event; n events make 1 + n/``SHIFTED`` of
-a sum.  Sums are of what is propagated: RADAU's estimate e, of order 3, stands for one of order 5
-and counts as e^(3/2).
+A run that reached its end is carried out again with a smaller ERROR, without a word and no further
+than ``LOOK`` allows.  What lies between both runs is what the first is off by, whatever damps,
+amplifies or shifts its errors; a part of the time stands for all of it.  The error of a channel is
+a share of the range that this channel has in the run:
+
+    place of a body           the way of this body, ``LEAST_WAY`` of the longest at least
+    attitude of a part        the largest turn, a radian at most
+    DIFF, VARIABLE            least to largest value
+    markers of an element     way and turn of I seen from J, which is what the element feels
+
+What stays within ERROR (DIFF states: ERROR of their size) or the gaps of constraints is at rest.
+Where there is no second run, the sum of the estimated errors of all steps is a bound.  An
+oscillation between events (contacts, dead zones) amplifies them: its period depends on its speed,
+so that an error of one pass shifts every later event; n events make 1 + n/``SHIFTED`` of a sum.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import isfinite
-from typing import TYPE_CHECKING
+from itertools import islice
+from math import inf, isfinite
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from adamslite.analyses.findings.standstill import INDIFFERENT, Frame, Parts
 from adamslite.integrators import contract
-from adamslite.integrators.jolts import JOLT
 from adamslite.language.method import FIXED, FIXED_BY_HINIT
 
 if TYPE_CHECKING:
     from adamslite.analyses.dynamics.dynamic import Settings
-    from adamslite.analyses.dynamics.history import History
+    from adamslite.analyses.dynamics.history import History, Piece
     from adamslite.equations.system import System
+    from adamslite.model.model import Model
+    from adamslite.results.results import Results
 
-# ERROR up to which a user means digits that methods of order 2, or without a test of velocities, do
-# not have to offer.
-FINE = 1e-6
+# The second run is at ERROR over this, and its difference from the first falls short of the error
+# by as much as it errs itself. Where ERROR is close to round-off it is that much larger instead.
+FINER, SHORT, FINEST = 10.0, 1.2, 1e-10
+# Its longest step as a share of that of the first, which may not have been limited by ERROR.
+SHORTER = 0.55
+# Residuals times unknowns that a second run may take: 30 ms or so, of the second that the command
+# takes; of a longer run this share.
+LOOK, SHARE = 900_000.0, 0.03
+# Of less than this share of the time it says nothing; numbers that are compared at most.
+LEAST_PART, MOST_NUMBERS = 0.02, 2**21
+# An error that grows by a higher power of the time is amplified.
+POWER, MOST_DOUBLED = 2.5, 60.0
+# Rows and elements that are compared.
+ROWS, ELEMENTS = 2_000, 100
+LEAST_WAY = 1e-3
+# Gaps of constraints that a coordinate has to exceed by so much.
+GAPS = 1e3
+# Of joints, ERRORs that it has to exceed: which of their coordinates are free is not looked at.
+HELD = 100.0
+# Share of its range that a channel may be off untold: this at a small ERROR, and more at a large
+# one, whose user expects no more.
+FELT, LOOSE, LOOSELY = 7e-4, 1e-4, 3.0
+# Share of its range from which on a channel is not determined.
+LOST = 0.3
+# The same of sums of estimates: stiff contacts turn errors of places into errors of speeds, and
+# those of backward differences came out up to 12 times short.
+FELT_IN_SUM, FELT_BY_BDF = 1e-3, 5e-4
 # Share of rough steps that is reported.
 OFTEN = 0.05
-# Share of the longest way that added errors may come to untold. Stiff contacts turn errors of
-# places into errors of speeds, and sums of backward differences came out up to 12 times short of
-# the error of 1830 random decks: with half the share none of those off by 1e-3 is left untold.
-FELT, FELT_BY_BDF = 1e-3, 5e-4
 FIRST_ORDER = 1e-9
-# Events after which a sum counts twice: an error r of the speed in cycle i of N shifts the end by
-# 2 pi r (N - i) dlog(frequency)/dlog(speed) amplitudes. Dead zones with 85, 108, 123 events ended
-# 4, 3.5 and 3.6 times their sums off (GSTIFF, ERROR of 1e-5 to 1e-8), one on a trolley that carries
-# a pendulum, with 38 events, 9 times.
+# Events after which a sum counts twice.
 SHIFTED = 15.0
 # Coordinates that go less than this share of the longest way say nothing about its weight.
 MOVING = 0.1
 # A way below this share of a coordinate is its rounding: the body is at rest.
 ROUNDING = 1e-12
-# Columns of results that are evaluated together.
-COLUMNS = 1024
-# So many of the states that are small against ERROR are named, the worst first.
-WORST_STATES = 3
+# Columns of results that are evaluated together; small states that are named, the worst first.
+COLUMNS, WORST_STATES = 1024, 3
+WAY = "the longest way of a body"
+
+
+class Channel(NamedTuple):
+    """The error of one channel in time (nt,), what it is a share of, and its unit."""
+
+    kind: str
+    name: str
+    error: np.ndarray
+    range: float
+    unit: str = ""
+
+    def share(self, rows: int | None = None) -> float:
+        """The largest error of the first rows as a share of the range."""
+        return float(np.nanmax(self.error[:rows], initial=0.0)) / self.range
+
+    def grown(self, part: float) -> float:
+        """The same at the end of the run, when it is known of the first ``part``: a power of the
+        time, or an exponential function where it grows faster than ``POWER``.
+        """
+        share, half = self.share(), self.share(len(self.error) // 2 + 1)
+        if part >= 1.0:
+            return share
+        power = float(np.log2(share / max(half, ROUNDING))) if share > ROUNDING else 0.0
+        if power > POWER:
+            return min(share * 2.0 ** min(2.0 * power * (1.0 / part - 1.0), MOST_DOUBLED), 10.0)
+        return share * part ** -max(power, 0.0)
+
+    def lost(self, rows: int) -> int:
+        """The first row in which it is not determined; ``rows`` where there is none."""
+        late = SHORT * self.error > LOST * self.range
+        return int(late.argmax()) if late.any() else rows
 
 
 def accuracy_notes(
@@ -55,6 +113,7 @@ def accuracy_notes(
     settings: Settings,
     counts: contract.Counts,
     history: History,
+    second: Results | None,
 ) -> str:
     """What ERROR does not say about the accuracy of a run, in sentences; empty when it does.
 
@@ -66,19 +125,206 @@ def accuracy_notes(
         Steps, restarts and the like of all of it.
     history : History
         The records of it.
+    second : Results or None
+        Of a second run with a smaller ERROR.
     """
     if settings.formula.steps == FIXED:
         return "equal steps without error test: compare a run with half of HINIT"
-    report, steps = system.report, counts.steps
-    shifted = 1.0 + float(counts.restarts) / SHIFTED
+    steps, report = counts.steps, system.report
+    found = _compared(system, settings, history, second) if second else None
+    if found:
+        told = [*_estimated(settings, steps, *found)]
+    else:
+        told = [*_added_up(settings, counts, float(report.spent), history)]
+    if told or not found:
+        told += _of_method(settings, steps, report)
+    told += _of_steps(settings, report)
+    if told and settings.form != settings.formula.formulations[0] and system.holonomic:
+        told.append("I3 does not test velocities, so that their errors add up; SI2 does")
+    return "; ".join(told)
+
+
+# ---- by a second run ---------------------------------------------------------------------------
+
+
+def wanted(
+    settings: Settings, counts: contract.Counts, unknowns: int, history: History
+) -> dict[str, Any] | None:
+    """The options of a second run; None where it would take too long, or say too little."""
+    run_takes = max(float(counts.residuals) * unknowns, 1.0)
+    part = max(LOOK, SHARE * run_takes) / run_takes
+    if part < LEAST_PART or not 1 < history.numbers < MOST_NUMBERS:
+        return None
+    apart = np.diff(history.whole.times)
+    longest = SHORTER * float(np.median(apart[apart > 0.0])) if apart.any() else None
+    finer = settings.error / FINER if settings.error > FINEST else settings.error * FINER
+    return {
+        "integrator": settings.method, "formulation": settings.form, "error": finer,
+        "hmax": min(filter(None, (longest, settings.hmax)), default=None),
+        "max_steps": int(part * int(counts.steps)) + 1,
+    }  # fmt: skip
+
+
+def _compared(
+    system: System, settings: Settings, history: History, second: Results
+) -> tuple[list[Channel], np.ndarray, float] | None:
+    """Errors of all channels, their times, and the part of the time in which they are known."""
+    run = history.whole
+    rows = min(run.count, len(second.time))
+    same = np.isclose(run.times[:rows], second.time[:rows], rtol=1e-9, atol=0.0)
+    rows = rows if same.all() else int(same.argmin())
+    if rows < 2 or run.names != second.names or not np.ptp(run.times) > 0.0:
+        return None
+    part = float(np.ptp(run.times[:rows]) / np.ptp(run.times))
+    if part < LEAST_PART:
+        return None
+    some = slice(0, rows, -(-rows // ROWS))
+    values = run.values[some], np.asarray(second.values)[some]
+    gaps = max(settings.error, GAPS * float(system.report.violation))
+    channels = _channels(system.model, run, values, gaps, settings.error)
+    return [each for each in channels if 0.0 < each.range < inf], run.times[some], part
+
+
+def _channels(
+    model: Model, run: Piece, values: tuple[np.ndarray, np.ndarray], least: float, error: float
+) -> Iterator[Channel]:
+    """What lies between two runs, channel by channel."""
+    column = {name: k for k, name in enumerate(run.names)}
+    one, other = (Parts(model, column, each) for each in values)
+    bodies = [each.label for each in model.moving if f"{each.label}.x" in column]
+    places = {label: (one.of_body(label), other.of_body(label)) for label in bodies}
+    longest = LEAST_WAY * max((_way(each) for each, _ in places.values()), default=0.0)
+    for label, (a, b) in places.items():
+        yield from _apart(label, a, b, max(longest, error), error)
+    for name, k in column.items():
+        if name.startswith(("DIFF/", "VARIABLE/")):
+            x, y = (each[:, k] for each in values)
+            size = float(np.abs(x).max(initial=0.0))
+            yield Channel("states", name, np.abs(x - y), max(float(np.ptp(x)), error * size))
+    for i, j, element in islice(_pairs(model), ELEMENTS):
+        seen, other_way = one.seen(i, j), other.seen(i, j)
+        if seen is not None and other_way is not None:
+            rest = max(least, HELD * error) if element.keyword == "JOINT" else least
+            yield from _apart(element.label, seen, other_way, rest, rest)
+
+
+def _pairs(model: Model) -> Iterator[tuple[Any, Any, Any]]:
+    """Markers of two moving bodies, and what acts between them."""
+    for each in model.deck.statements:
+        i, j = (getattr(each, end, None) for end in "ij")
+        if i and j and each.keyword not in INDIFFERENT and model.acts(each):
+            a, b = model.marker(i), model.marker(j)
+            if a is not None and b is not None and -1 < a.body != b.body > -1:
+                yield i, j, each
+
+
+def _way(frame: Frame) -> float:
+    return float(np.ptp(frame.place, axis=0).max(initial=0.0))
+
+
+def _apart(label: str, one: Frame, other: Frame, way: float, turn: float) -> Iterator[Channel]:
+    """Places and attitudes of a frame in two runs; at rest within ``way`` and ``turn``."""
+    rounding = ROUNDING / FELT * float(np.abs(one.place).max(initial=0.0))
+    off = np.linalg.norm(one.place - other.place, axis=1)
+    yield Channel("places", label, off, max(_way(one), way, rounding))
+    turned, off = _angle(one.axes, one.axes[:1]), _angle(one.axes, other.axes)
+    turn = max(turn, float(turned.max(initial=0.0)))
+    yield Channel("turns", label, off, min(turn, 1.0), " rad")
+
+
+def _angle(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """The angle between attitudes (nt,) [rad]."""
+    apart = np.linalg.norm(one - other, axis=(1, 2)) / np.sqrt(8.0)
+    return 2.0 * np.arcsin(np.minimum(apart, 1.0))
+
+
+def _estimated(
+    settings: Settings, steps: int, channels: list[Channel], times: np.ndarray, part: float
+) -> Iterator[str]:
+    """The estimated errors of a run, the worst of each kind."""
+    felt = FELT * (LOOSELY if settings.error > LOOSE else 1.0)
+    short = SHORT if settings.error > FINEST else FINER**-0.8
+    worst: dict[str, Channel] = {}
+    for each in channels:
+        if each.kind not in worst or each.share() > worst[each.kind].share():
+            worst[each.kind] = each
+    shares = [(short * each.grown(part), each) for each in worst.values()]
+    shares.sort(key=lambda found: -found[0])
+    if not shares or not shares[0][0] > felt:
+        return
+    texts = []
+    for off, each in shares:
+        share = f"{off:.2%} of its range" if off < 1.0 else "more than its range"
+        if off > 0.1 * felt:
+            texts.append(f"{off * each.range:.1e}{each.unit} in {each.name} ({share})")
+    yield (
+        f"estimated global error {', '.join(texts)} after {steps} steps: "
+        f"{_remedy(settings)} keeps more digits"
+    )
+    since = min(each.lost(len(times)) for each in channels)
+    if since < len(times):
+        yield f"from t = {times[since]:.4g} on the result is not determined at this ERROR"
+
+
+def _remedy(settings: Settings) -> str:
+    by_hinit = settings.formula.steps == FIXED_BY_HINIT
+    fixed = settings.hinit and (by_hinit or settings.hinit == settings.hmin)
+    return "a shorter step" if fixed else f"a smaller ERROR than {settings.error:g}"
+
+
+# ---- by the method, by sums --------------------------------------------------------------------
+
+
+def _of_method(settings: Settings, steps: int, report: contract.Report) -> Iterator[str]:
+    """Why a formula errs."""
+    method, (alpha, _, gamma) = settings.formula, settings.damping
+    if method.damping and abs(gamma + alpha - 0.5) > FIRST_ORDER:
+        yield (
+            f"with GAMMA={gamma:g} the formula is of order 1, and a run is off by the root of ERROR"
+            " rather than by ERROR; HHT damps as well and is of order 2"
+        )
+    elif method.order <= 2:
+        yield "the formula is of order 2: GSTIFF, RADAU or RKF45 get further with fewer steps"
+    if method.damping and report.rough_steps > OFTEN * steps:
+        yield (
+            f"accelerations changed by more than half in {report.rough_steps} of {steps} steps: "
+            "vibrations faster than the steps were damped, not followed; where they matter, GSTIFF "
+            "or RADAU follow them"
+        )
+    if report.jolts > 0 or report.jolt > contract.JOLT * report.speed > 0.0:
+        yield (
+            f"a velocity changed by about {report.jolt:.2g} within a step in a way that its ends "
+            "do not show: impacts shorter than the steps were not followed; a smaller ERROR or "
+            "HMAX follows them"
+        )
+
+
+def _of_steps(settings: Settings, report: contract.Report) -> Iterator[str]:
+    """What there is to say of steps that a user has chosen."""
+    if settings.formula.damping and report.divided:
+        yield (
+            f"steps were divided {report.divided} times, because the corrector did not converge "
+            f"with the requested {settings.hinit:g}: a shorter HINIT, or none, for an error test"
+        )
+    most = contract.STABLE * report.stable_step
+    if settings.formula.steps == FIXED_BY_HINIT and (settings.hinit or 0.0) > most > 0.0:
+        yield (
+            f"HINIT={settings.hinit:g} is close to the longest stable step, "
+            f"{report.stable_step:.3g} by estimate: above it vibrations grow without "
+            f"bound; stay below {most:.3g}"
+        )
+
+
+def _added_up(
+    settings: Settings, counts: contract.Counts, spent: float, history: History
+) -> Iterator[str]:
+    """The sums of the errors of all steps, where nothing better is known."""
+    spent *= settings.error * (1.0 + float(counts.restarts) / SHIFTED)
     way, reach = longest_way(history)
-    spent = float(report.spent) * settings.error * shifted
-    off = spent * max(1.0, reach)
-    found = [*_of_method(settings, steps, report, off), *_added_up(settings, steps, off, way)]
-    found += _of_small_states(settings, spent, history)
-    if settings.form != settings.formula.formulations[0] and system.sizes.holonomic:
-        found.append("I3 does not test velocities, so that their errors add up; SI2 does")
-    return "; ".join(found)
+    if not way and any(name.endswith(".psi") for name in history.names):
+        yield from _sum(settings, counts.steps, spent, 1.0, "a radian")
+    yield from _sum(settings, counts.steps, spent * max(1.0, reach), way)
+    yield from _of_small_states(settings, spent, history)
 
 
 def longest_way(history: History) -> tuple[float, float]:
@@ -112,65 +358,19 @@ def _extremes(history: History, places: list[int]) -> tuple[np.ndarray, np.ndarr
     return least, most
 
 
-def _of_method(
-    settings: Settings, steps: int, report: contract.Report, off: float
-) -> Iterator[str]:
-    """What belongs to a formula."""
-    method, (alpha, _, gamma) = settings.formula, settings.damping
-    rough, divided = report.rough_steps, report.divided
-    damps_more = bool(method.damping) and abs(gamma + alpha - 0.5) > FIRST_ORDER
-    if damps_more:
-        yield (
-            f"with GAMMA={gamma:g} the formula is of order 1, and a run is off by the root of ERROR"
-            " rather than by ERROR; HHT damps as well and is of order 2"
-        )
-    if method.damping and rough > OFTEN * steps:
-        yield (
-            f"accelerations changed by more than half in {rough} of {steps} steps: vibrations "
-            "faster than the steps were damped, not followed; where they matter, GSTIFF or RADAU "
-            "follow them"
-        )
-    if report.jolts > 0 or report.jolt > JOLT * report.speed > 0.0:
-        yield (
-            f"a velocity changed by about {report.jolt:.2g} within a step in a way that its ends "
-            "do not show: impacts shorter than the steps were not followed; a smaller ERROR or "
-            "HMAX follows them"
-        )
-    if method.damping and divided:
-        yield (
-            f"steps were divided {divided} times, because the corrector did not converge with the "
-            f"requested {settings.hinit:g}: a shorter HINIT, or none, for an error test"
-        )
-    most = contract.STABLE * report.stable_step
-    if method.steps == FIXED_BY_HINIT and settings.hinit and settings.hinit > most > 0.0:
-        yield (
-            f"HINIT={settings.hinit:g} is close to the longest stable step, "
-            f"{report.stable_step:.3g} by estimate: above it vibrations grow without "
-            f"bound; stay below {most:.3g}"
-        )
-    if method.order <= 2 and settings.error <= FINE and not damps_more:
-        yield (
-            f"the formula is of order {method.order}: {steps} steps of ERROR={settings.error:g} "
-            f"add up to {off:.1e}; GSTIFF, RADAU or RKF45 get further with fewer"
-        )
-
-
-def _added_up(settings: Settings, steps: int, off: float, way: float) -> Iterator[str]:
-    """What belongs to every method."""
-    by_hinit = settings.formula.steps == FIXED_BY_HINIT
-    fixed = settings.hinit and (by_hinit or settings.hinit == settings.hmin)
-    remedy = "a shorter step" if fixed else f"a smaller ERROR than {settings.error:g}"
-    felt = FELT_BY_BDF if settings.formula.family == "differences" else FELT
+def _sum(settings: Settings, steps: int, off: float, way: float, of: str = WAY) -> Iterator[str]:
+    """A sum of estimates against what it is a share of."""
+    felt = FELT_BY_BDF if settings.formula.family == "differences" else FELT_IN_SUM
     if off > way > 0.0:
         yield (
-            f"the estimated errors of {steps} steps add up to more than the longest way of a body, "
+            f"the estimated errors of {steps} steps add up to more than {of}, "
             "a bound that says nothing where forces damp them, as friction and contacts do: "
-            f"a run with {remedy} shows what they come to"
+            f"a run with {_remedy(settings)} shows what they come to"
         )
     elif off > felt * way > 0.0:
         yield (
-            f"the estimated errors of {steps} steps add up to {off:.1e}, {off / way:.2%} of the "
-            f"longest way of a body: {remedy} keeps more digits"
+            f"the estimated errors of {steps} steps add up to {off:.1e}, {off / way:.2%} of "
+            f"{of}: {_remedy(settings)} keeps more digits"
         )
 
 
@@ -181,21 +381,16 @@ def _of_small_states(settings: Settings, spent: float, history: History) -> Iter
     least, most = _extremes(history, places) if places else (np.zeros(0), np.zeros(0))
     for k, size in zip(places, np.maximum(-least, most).tolist(), strict=True):
         off = spent * max(1.0, size)
-        if isfinite(size) and off > FELT * size > 0.0:
+        if isfinite(size) and off > FELT_IN_SUM * size > 0.0:
             found.append((off / size, off, history.names[k]))
     if not found:
         return
     found.sort(key=lambda state: -state[0])
     share, off, name = found[0]
-    others = ", ".join(f"{each} {_share(part)}" for part, _, each in found[1:WORST_STATES])
+    others = ", ".join(f"{each} {min(part, 1.0):.1%}" for part, _, each in found[1:WORST_STATES])
     worst = f" ({others}, {len(found)} states in all)" if others else ""
     amount = f"{off:.1e}, {share:.1%} of" if share < 1.0 else "more than"
     yield (
         f"the estimated errors add up to {amount} the largest {name}{worst}: "
         f"a smaller ERROR than {settings.error:g}, or another unit of the state"
     )
-
-
-def _share(part: float) -> str:
-    """A share of a state; more than all of it is no share."""
-    return f"{part:.1%}" if part < 1.0 else "too"

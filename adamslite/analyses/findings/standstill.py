@@ -24,7 +24,7 @@ STILL = 1e-6
 #: Larger models are not looked at: it would take a noticeable part of the run.
 MOST_JOINTS, MOST_PLACES = 30, 20_000
 #: What names a joint, and does not need it to be of its kind.
-INDIFFERENT = frozenset({"FRICTION", "GRAPHICS", "MREQUEST", "REQUEST", "SENSOR"})
+INDIFFERENT = frozenset({"FRICTION", "GRAPHICS", "INFO", "MREQUEST", "REQUEST", "SENSOR"})
 #: So many are named.
 MOST_NAMED = 5
 
@@ -44,7 +44,7 @@ def _needed(deck: Deck) -> set[tuple[str, Key]]:
     return {each for statement in acting for each in referred(statement)}
 
 
-class _Parts:
+class Parts:
     """Frames of markers by the columns of the results."""
 
     def __init__(self, model: Model, column: dict[str, int], values: np.ndarray) -> None:
@@ -60,35 +60,44 @@ class _Parts:
 
     def moved(self, joint: Joint) -> tuple[float, float] | None:
         """How far I went from where it was to J, and turned; None of what has no columns."""
-        i, j = self.frame(joint.i), self.frame(joint.j)
+        seen = self.seen(joint.i, joint.j)
+        if seen is None:
+            return None
+        way, turn = np.ptp(seen.place, axis=0), np.ptp(seen.axes, axis=0)
+        return float(way.max()), float(turn.max())
+
+    def seen(self, marker: Key, observer: Key) -> Frame | None:
+        """A marker as seen from another; None of what has no columns."""
+        i, j = self.frame(marker), self.frame(observer)
         if i is None or j is None:
             return None
         across = np.swapaxes(j.axes, -1, -2)
-        place = (across @ (i.place - j.place)[..., None])[..., 0]
-        turned = across @ i.axes
-        way, turn = np.ptp(place, axis=0), np.ptp(turned, axis=0)
-        return float(way.max()), float(turn.max())
+        return Frame((across @ (i.place - j.place)[..., None])[..., 0], across @ i.axes)
 
     def frame(self, marker: Key) -> Frame | None:
         """The frame of a marker; None where its part has no columns."""
         fixed = self.model.marker(marker)
-        if fixed is None or fixed.kind != "part":
-            return Frame(fixed.p[None], fixed.axes[None]) if fixed and fixed.body < 0 else None
+        if fixed is None or fixed.body < 0:
+            return Frame(fixed.p[None], fixed.axes[None]) if fixed else None
         owner = self.model.deck.get(Marker, marker).owner
         part = self.model.deck.find(*owner) if owner else None
-        if part is None or f"{part.label}.psi" not in self.column:
+        if part is None or f"{part.label}.x" not in self.column:
             return None
         centre, own = self.model.marker_in_body(part.cm)
-        at = self.known.get(part.label) or self._of_part(part.label)
+        at = self.of_body(part.label)
         origin, axes = self.model.marker_in_body(marker)
         base = at.axes @ own.T
         return Frame(at.place + base @ (origin - centre), base @ axes)
 
-    def _of_part(self, label: str) -> Frame:
-        first = self.column[f"{label}.x"]
-        place, angles = self.values[:, first : first + 3], self.values[:, first + 3 : first + 6]
-        found = self.known[label] = Frame(place, rotations_313(angles))
-        return found
+    def of_body(self, label: str) -> Frame:
+        """The mass centre of a body in ground; what does not turn has the axes of the start."""
+        if label not in self.known:
+            first = self.column[f"{label}.x"]
+            place, angles = self.values[:, first : first + 3], self.values[:, first + 3 : first + 6]
+            turns = f"{label}.psi" in self.column
+            axes = rotations_313(angles) if turns else np.eye(3)[None]
+            self.known[label] = Frame(place, axes)
+        return self.known[label]
 
 
 def standing(model: Model, history: History) -> str:
@@ -98,7 +107,7 @@ def standing(model: Model, history: History) -> str:
     if history.count < 3 or not 1 < len(joints) <= most:
         return ""
     table = history.whole
-    parts = _Parts(model, {name: k for k, name in enumerate(table.names)}, table.values)
+    parts = Parts(model, {name: k for k, name in enumerate(table.names)}, table.values)
     moved = {j: found for j in joints if (found := parts.moved(j)) is not None}
     extent = parts.extent()
     still = {j: by for j, by in moved.items() if by[0] <= STILL * extent and by[1] <= STILL}

@@ -41,6 +41,8 @@ from adamslite.outputs.saved_files import SavedFiles
 from adamslite.results.outcomes import Outcome
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from adamslite.analyses.dynamics.history import Journal
     from adamslite.analyses.initial.conditions import Unclosed
     from adamslite.analyses.setup.subject import Subject
@@ -48,7 +50,7 @@ if TYPE_CHECKING:
     from adamslite.deck.redefinition import Redefinition
     from adamslite.progress import AnalysisProgress, Progress
     from adamslite.results.balance import Balance
-    from adamslite.results.results import Linearized
+    from adamslite.results.results import Linearized, Results
 
 
 #: Statements that may have initial conditions of their own.
@@ -134,6 +136,8 @@ class SessionState:
         self.began_static = False
         self.recorded = self.kernels
         self.analyses: list[tuple[str, float, int]] = []
+        #: Carries out the same commands with other options, where that may be asked for.
+        self.again: Callable[..., Results | None] | None = None
 
     @property
     def deck(self) -> Deck:
