@@ -71,14 +71,15 @@ class Draft:
         """The deck."""
         run = f"SIMULATE/DYNAMIC, END={self.end!r}, STEPS={steps}"
         text = "\n".join([title, HEAD, *self.lines, run, "END", ""])
-        return RandomDeck(title, text, self.end, self.finest)
+        return RandomDeck(title, text, self.end, self.finest, steps)
 
 
 @dataclass(frozen=True)
 class RandomDeck:
-    """``text`` of a deck, its ``end`` time, and the shortest time in which something happens."""
+    """``text`` of a deck, its ``end`` time, the shortest time of an event, and output steps."""
 
     title: str
     text: str
     end: float
     finest: float
+    steps: int

@@ -63,11 +63,11 @@ def _place(results: Results, body: str) -> np.ndarray:
 
 def _turned(results: Results, truth: Results, body: str) -> float:
     """Largest angle between the attitudes of a part in two runs [rad]."""
-    apart = np.linalg.norm(_attitude(results, body) - _attitude(truth, body), axis=(1, 2))
+    apart = np.linalg.norm(attitude(results, body) - attitude(truth, body), axis=(1, 2))
     return float(2.0 * np.arcsin(np.minimum(apart / np.sqrt(8.0), 1.0)).max())
 
 
-def _attitude(results: Results, body: str) -> np.ndarray:
+def attitude(results: Results, body: str) -> np.ndarray:
     """Rotation matrices (nt, 3, 3) of the 3-1-3 angles, body to ground."""
     (c1, s1), (c2, s2), (c3, s3) = (
         (np.cos(results[f"{body}.{a}"]), np.sin(results[f"{body}.{a}"]))
