@@ -351,6 +351,7 @@ def _meta(session: Session) -> Mapping[str, str]:
         **_notes(session),
         **session.apart.meta,
         **session.sensors.meta,
+        **session.kinematic,
         **({"info": "; ".join(session.printed)} if session.printed else {}),
         **_past(session),
         **({"time": f"{hurried}: {FASTER}"} if hurried else {}),

@@ -19,7 +19,7 @@ FIGURES = (
 )
 #: Comments of the results that the summary repeats.
 NOTES = (
-    "user",
+    "user", "kinematic", "speed jumps", "analyses",
     "assembled", "start speeds", "redundant", "not reached", "not moved", "equilibrium", "order",
     "accuracy", "energy", "time", "linear", "no number", "sensor", "out of its law", "info",
     "not looked for",

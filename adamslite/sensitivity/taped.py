@@ -102,6 +102,10 @@ class Probe(Session):
     def _take(self, choice: MethodChoice) -> None:
         super()._take(allowed(choice, "method" in self.flags))
 
+    def is_determined(self, times: np.ndarray) -> bool:
+        """No: derivatives follow the steps of a run."""
+        return False
+
 
 class Taped(Session):
     """Follows the tape of a run with ``follow(system, method)``; ``planar``: in the plane of the
@@ -118,6 +122,10 @@ class Taped(Session):
         if not choice.reason and taken.settings.method != choice.settings.method:
             self.refused = choice.settings.method
         super()._take(taken)
+
+    def is_determined(self, times: np.ndarray) -> bool:
+        """No: there would be no tape."""
+        return False
 
     @property
     def notes(self) -> dict[str, str]:

@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
+from adamslite.analyses.clock.motion_jumps import followed_jumps
 from adamslite.analyses.dynamics.delays import NO_PAST, require_no_delay
 from adamslite.analyses.dynamics.dynamic import integrate, make_ready
 from adamslite.analyses.dynamics.method_choice import choose_method
@@ -56,6 +57,10 @@ if TYPE_CHECKING:
     from adamslite.kernels.groups import Kernels
 
 Found = TypeVar("Found")
+DETERMINED = (
+    "the model has no degree of freedom: its postures follow from the MOTIONs at each output time, "
+    "and nothing was integrated"
+)
 # Outcomes after which the rank of the constraints is computed again.
 STALLED = (Outcome.NEWTON_FAILED, Outcome.STEP_TOO_SMALL)
 # Outcomes after which nothing else is tried.
@@ -132,7 +137,7 @@ class Session(SessionState):
         kind = command.kind
         if kind == "TRANSIENT":
             kind = "KINEMATICS" if self.system.dof == 0 else "DYNAMICS"
-        if kind == "KINEMATICS" and self.system.dof == 0 and self._has_rates():
+        if kind == "KINEMATICS" and self.system.dof == 0 and self.has_rates():
             kind = "DYNAMICS"
         if self.outcome is not Outcome.DONE:
             return
@@ -149,6 +154,9 @@ class Session(SessionState):
     def _dynamics(self, times: np.ndarray) -> None:
         system = self.system
         if self.outcome is not Outcome.DONE:
+            return
+        if self.is_determined(times):
+            self._determined(times)
             return
         if self.began_static:
             self.unclosed = consistent_velocities(system)
@@ -334,14 +342,20 @@ class Session(SessionState):
             outcome, self.unclosed = reached(system, times, row, self.budget)
             return outcome
 
+        *_, jumps = followed_jumps(system, times)
+        self.kinematic |= {"speed jumps": jumps} if jumps else {}
         try:
             self.outcome = in_turn(self, times, reach, RECORD, False)
         finally:
             self.budget.settle(system)
 
-    def _has_rates(self) -> bool:
-        """Whether TIME alone does not determine a posture: states, MOTIONs that give speeds."""
-        return self.system.ns > 0 or self.system.m > self.system.holonomic
+    def _determined(self, times: np.ndarray) -> None:
+        """A dynamic analysis without degrees of freedom, up to a jump of a displacement."""
+        self.kinematic["kinematic"] = DETERMINED
+        times, broken, _ = followed_jumps(self.system, times)
+        self._kinematics(times)
+        if broken and self.outcome is Outcome.DONE:
+            self.system.broken, self.outcome = broken, Outcome.BROKEN_MOTION
 
     def _initial(self, times: np.ndarray) -> None:
         """Record the assembled state with its accelerations."""

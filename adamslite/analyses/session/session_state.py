@@ -76,6 +76,8 @@ class SessionState:
         How the last analysis ended; the constraint that stayed open, if one did.
     present : System or None
         ``system``, as far as it is there; ``began_static``: it is at rest after an equilibrium.
+    kinematic
+        Comments on kinematic analyses.
     recorded
         The kernels of the last analysis.
     analyses
@@ -135,6 +137,7 @@ class SessionState:
         self.present: System | None = None
         self.began_static = False
         self.recorded = self.kernels
+        self.kinematic: dict[str, str] = {}
         self.analyses: list[tuple[str, float, int]] = []
         #: Carries out the same commands with other options, where that may be asked for.
         self.again: Callable[..., Results | None] | None = None
@@ -183,6 +186,20 @@ class SessionState:
         from adamslite.analyses.initial.joint_start import start_of_joints
 
         return start_of_joints(system, self.progress)
+
+    def is_determined(self, times: np.ndarray) -> bool:
+        """Whether a dynamic analysis has nothing to integrate: TIME determines every posture, and
+        no element depends on what was before.
+        """
+        system, deck = self.system, self.deck
+        if system.dof > 0 or not system.holonomic or len(times) < 2 or self.has_rates():
+            return False
+        remembers = deck.delays or any(map(deck.of, ("SENSOR", "FRICTION", "GSE")))
+        return not (remembers or self.audited)
+
+    def has_rates(self) -> bool:
+        """Whether TIME alone does not determine a posture: states, MOTIONs that give speeds."""
+        return self.system.ns > 0 or self.system.m > self.system.holonomic
 
     def end_for_memory(self) -> None:
         """The run ends; what there is takes some memory more to be kept, and gets it."""

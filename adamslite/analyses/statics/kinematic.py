@@ -28,6 +28,11 @@ if TYPE_CHECKING:
 # Angles are counted by the nearest one to the last: no part turns further in a step, and two may
 # turn against each other.
 MOST_TURNED = 1.5
+# Corrections of a predicted posture that are no other way of assembly; steps are not shortened for
+# them below this share of an output step.
+CORRECTED, LEAST_SHARE = 0.1, 1e-3
+# Lengths whose share is round-off of models that only turn.
+SMALL = 1e-6
 
 
 def reached(
@@ -38,9 +43,9 @@ def reached(
     What is recorded on the way, for the angles that it counts, is written over.
     """
     at, end = float(times[max(0, row - 1)]), float(times[row])
+    least = LEAST_SHARE * (end - at)
     while True:
-        at = _next_time(system, at, end)
-        unclosed = _solve(system, at)
+        at, unclosed = _followed(system, at, end, least)
         if unclosed:
             return unclosed.outcome, unclosed
         if system.run(ACCELERATIONS) != contract.DONE:
@@ -52,6 +57,35 @@ def reached(
         system.count.records = row
         if over := budget.spent(int(system.count.steps)):
             return over, None
+
+
+def _followed(
+    system: System, start: float, end: float, least: float
+) -> tuple[float, Unclosed | None]:
+    """Solve at ``end`` or a time before it, so near that the posture is the predicted one but for a
+    small correction: a larger one may have led to another way of assembly.
+    """
+    before = [(x, x.copy()) for x in (system.q, system.u, system.a, system.base)]
+    while True:
+        at = _next_time(system, start, end)
+        predicted = system.q.copy(), system.base.copy()
+        unclosed = _solve(system, at)
+        if not at - start > least or not _is_far(system, *predicted):
+            return at, unclosed
+        for array, values in before:
+            array[:] = values
+        end = start + 0.5 * (at - start)
+
+
+def _is_far(system: System, q: np.ndarray, base: np.ndarray) -> bool:
+    """Whether bodies are farther than CORRECTED from where they were predicted, as a share of the
+    model's extent or as a turn: |R - P| of turns by an angle t is sqrt(8) sin(t/2).
+    """
+    centres = np.add.outer(system.starts[: len(system.mass)], np.arange(3)).ravel()
+    moved = np.abs(system.q[centres] - q[centres]).max(initial=0.0)
+    turns = np.linalg.norm((system.base - base).reshape(-1, 9), axis=1) / np.sqrt(2.0)
+    extent = np.abs(q[centres]).max(initial=SMALL)
+    return bool(moved > CORRECTED * extent or turns.max(initial=0.0) > CORRECTED)
 
 
 def _next_time(system: System, start: float, end: float) -> float:
