@@ -21,11 +21,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import islice
 from math import inf, isfinite
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from adamslite.analyses.findings.standstill import INDIFFERENT, Frame, Parts
+from adamslite.analyses.findings.standstill import (
+    INDIFFERENT,
+    ROUNDING,
+    Frame,
+    Parts,
+    extremes,
+    longest_way,
+)
 from adamslite.integrators import contract
 from adamslite.language.method import FIXED, FIXED_BY_HINIT
 
@@ -37,17 +44,22 @@ if TYPE_CHECKING:
     from adamslite.results.results import Results
 
 # The second run is at ERROR over this, and its difference from the first falls short of the error
-# by as much as it errs itself. Where ERROR is close to round-off it is that much larger instead.
-FINER, SHORT, FINEST = 10.0, 1.2, 1e-10
-# Its longest step as a share of that of the first, which may not have been limited by ERROR.
-SHORTER = 0.55
+# by as much as it errs itself. Its longest step is that share of what limits those of the first.
+FINER, SHORT, SHORTER = 10.0, 1.2, 0.55
+# Where ERROR is close to round-off, or most of such a run would take too long, it is coarser:
+# by that, or its square where that takes too long as well; steps grow by that power of it.
+FINEST, COARSER, COARSEST, STRETCH = 1e-10, 100.0, 1e-3, 0.13
 # Residuals times unknowns that a second run may take: 30 ms or so, of the second that the command
 # takes; of a longer run this share.
 LOOK, SHARE = 900_000.0, 0.03
+# What has to be allowed, in first runs, for most of a finer one, and for all of a coarser one.
+DEARER, CHEAPER = 1.45, 0.5
 # Of less than this share of the time it says nothing; numbers that are compared at most.
 LEAST_PART, MOST_NUMBERS = 0.02, 2**21
+# Steps so close to HMAX on average are limited by it.
+LIMITED = 0.8
 # An error that grows by a higher power of the time is amplified.
-POWER, MOST_DOUBLED = 2.5, 60.0
+POWER, LARGEST = 2.5, 10.0
 # Rows and elements that are compared.
 ROWS, ELEMENTS = 2_000, 100
 LEAST_WAY = 1e-3
@@ -68,13 +80,9 @@ OFTEN = 0.05
 FIRST_ORDER = 1e-9
 # Events after which a sum counts twice.
 SHIFTED = 15.0
-# Coordinates that go less than this share of the longest way say nothing about its weight.
-MOVING = 0.1
-# A way below this share of a coordinate is its rounding: the body is at rest.
-ROUNDING = 1e-12
-# Columns of results that are evaluated together; small states that are named, the worst first.
-COLUMNS, WORST_STATES = 1024, 3
 WAY = "the longest way of a body"
+# Errors of all channels, their times, and the part of the time in which they are known.
+Compared: TypeAlias = "tuple[list[Channel], np.ndarray, float]"
 
 
 class Channel(NamedTuple):
@@ -92,19 +100,20 @@ class Channel(NamedTuple):
 
     def grown(self, part: float) -> float:
         """The same at the end of the run, when it is known of the first ``part``: a power of the
-        time, or an exponential function where it grows faster than ``POWER``.
+        time, or an exponential function where it grows faster than ``POWER`` all the time.
         """
-        share, half = self.share(), self.share(len(self.error) // 2 + 1)
-        if part >= 1.0:
-            return share
-        power = float(np.log2(share / max(half, ROUNDING))) if share > ROUNDING else 0.0
-        if power > POWER:
-            return min(share * 2.0 ** min(2.0 * power * (1.0 / part - 1.0), MOST_DOUBLED), 10.0)
-        return share * part ** -max(power, 0.0)
+        quarters = [max(self.share(len(self.error) * k // 4 + 1), ROUNDING) for k in range(1, 5)]
+        growth = np.diff(np.log(quarters))
+        power = float((growth / np.diff(np.log([1.0, 2.0, 3.0, 4.0]))).min())
+        if part < 1.0 and power > POWER:
+            return min(
+                self.share() * np.exp(min(4.0 * growth.min() * (1 / part - 1), 60.0)), LARGEST
+            )
+        return self.share() * part ** -max(power, 0.0)
 
-    def lost(self, rows: int) -> int:
+    def lost(self, factor: float, rows: int) -> int:
         """The first row in which it is not determined; ``rows`` where there is none."""
-        late = SHORT * self.error > LOST * self.range
+        late = factor * self.error > LOST * self.range
         return int(late.argmax()) if late.any() else rows
 
 
@@ -114,6 +123,7 @@ def accuracy_notes(
     counts: contract.Counts,
     history: History,
     second: Results | None,
+    factor: float,
 ) -> str:
     """What ERROR does not say about the accuracy of a run, in sentences; empty when it does.
 
@@ -125,15 +135,15 @@ def accuracy_notes(
         Steps, restarts and the like of all of it.
     history : History
         The records of it.
-    second : Results or None
-        Of a second run with a smaller ERROR.
+    second, factor : Results or None, float
+        Of a second run, and the error over the difference from it.
     """
     if settings.formula.steps == FIXED:
         return "equal steps without error test: compare a run with half of HINIT"
     steps, report = counts.steps, system.report
     found = _compared(system, settings, history, second) if second else None
     if found:
-        told = [*_estimated(settings, steps, *found)]
+        told = [*_estimated(system, settings, steps, factor, found)]
     else:
         told = [*_added_up(settings, counts, float(report.spent), history)]
     if told or not found:
@@ -147,28 +157,37 @@ def accuracy_notes(
 # ---- by a second run ---------------------------------------------------------------------------
 
 
-def wanted(
+def second_run(
     settings: Settings, counts: contract.Counts, unknowns: int, history: History
-) -> dict[str, Any] | None:
-    """The options of a second run; None where it would take too long, or say too little."""
-    run_takes = max(float(counts.residuals) * unknowns, 1.0)
-    part = max(LOOK, SHARE * run_takes) / run_takes
+) -> tuple[dict[str, Any], float]:
+    """The options of a second run, none where it would take too long, and the error of the first
+    over the difference of both.
+    """
+    takes = max(float(counts.residuals) * unknowns, 1.0)
+    part = max(LOOK, SHARE * takes) / takes
     if part < LEAST_PART or not 1 < history.numbers < MOST_NUMBERS:
-        return None
+        return {}, 0.0
     apart = np.diff(history.whole.times)
-    longest = SHORTER * float(np.median(apart[apart > 0.0])) if apart.any() else None
-    finer = settings.error / FINER if settings.error > FINEST else settings.error * FINER
-    return {
-        "integrator": settings.method, "formulation": settings.form, "error": finer,
-        "hmax": min(filter(None, (longest, settings.hmax)), default=None),
+    longest = min(
+        settings.hmax or inf, float(np.median(apart[apart > 0.0])) if apart.any() else inf
+    )
+    order, error, stretch, factor = settings.formula.order, settings.error / FINER, SHORTER, SHORT
+    coarser = min(COARSER if part > CHEAPER else COARSER**2, COARSEST / settings.error)
+    if coarser >= FINER and (part < DEARER or settings.error < FINEST):
+        error, stretch = settings.error * coarser, coarser**STRETCH
+        factor = 1.0 / (min(coarser ** (order / (order + 1.0)), stretch**order) - 1.0)
+    options = {
+        "integrator": settings.method, "formulation": settings.form, "error": error,
+        "hmax": stretch * longest if longest < inf else None,
         "max_steps": int(part * int(counts.steps)) + 1,
     }  # fmt: skip
+    return options, factor
 
 
 def _compared(
     system: System, settings: Settings, history: History, second: Results
-) -> tuple[list[Channel], np.ndarray, float] | None:
-    """Errors of all channels, their times, and the part of the time in which they are known."""
+) -> Compared | None:
+    """What lies between a run and a second one; None where they have no times in common."""
     run = history.whole
     rows = min(run.count, len(second.time))
     same = np.isclose(run.times[:rows], second.time[:rows], rtol=1e-9, atol=0.0)
@@ -239,17 +258,17 @@ def _angle(one: np.ndarray, other: np.ndarray) -> np.ndarray:
 
 
 def _estimated(
-    settings: Settings, steps: int, channels: list[Channel], times: np.ndarray, part: float
+    system: System, settings: Settings, steps: int, factor: float, found: Compared
 ) -> Iterator[str]:
     """The estimated errors of a run, the worst of each kind."""
+    channels, times, part = found
     felt = FELT * (LOOSELY if settings.error > LOOSE else 1.0)
-    short = SHORT if settings.error > FINEST else FINER**-0.8
     worst: dict[str, Channel] = {}
     for each in channels:
         if each.kind not in worst or each.share() > worst[each.kind].share():
             worst[each.kind] = each
-    shares = [(short * each.grown(part), each) for each in worst.values()]
-    shares.sort(key=lambda found: -found[0])
+    shares = [(factor * each.grown(part), each) for each in worst.values()]
+    shares.sort(key=lambda each: -each[0])
     if not shares or not shares[0][0] > felt:
         return
     texts = []
@@ -257,11 +276,13 @@ def _estimated(
         share = f"{off:.2%} of its range" if off < 1.0 else "more than its range"
         if off > 0.1 * felt:
             texts.append(f"{off * each.range:.1e}{each.unit} in {each.name} ({share})")
+    longest = float(system.settings.h_max)
+    limited = steps * longest * LIMITED < float(np.ptp(times)) / part
+    remedy = f"a shorter HMAX than {longest:.3g}" if limited else _remedy(settings)
     yield (
-        f"estimated global error {', '.join(texts)} after {steps} steps: "
-        f"{_remedy(settings)} keeps more digits"
+        f"estimated global error {', '.join(texts)} after {steps} steps: {remedy} keeps more digits"
     )
-    since = min(each.lost(len(times)) for each in channels)
+    since = min(each.lost(factor, len(times)) for each in channels)
     if since < len(times):
         yield f"from t = {times[since]:.4g} on the result is not determined at this ERROR"
 
@@ -327,37 +348,6 @@ def _added_up(
     yield from _of_small_states(settings, spent, history)
 
 
-def longest_way(history: History) -> tuple[float, float]:
-    """The longest way of a body along an axis, and the largest coordinate of those that move.
-
-    The way is 0 where nothing moves.
-    """
-    places = [k for k, name in enumerate(history.names) if name.endswith((".x", ".y", ".z"))
-              and name.startswith(("PART/", "POINT_MASS/"))]  # fmt: skip
-    if not places or not history.count:
-        return 0.0, 0.0
-    least, most = _extremes(history, places)
-    if not (np.isfinite(least).all() and np.isfinite(most).all()):
-        return 0.0, 0.0
-    ways = most - least
-    way, moving = float(ways.max()), ways >= MOVING * ways.max()
-    sizes = np.maximum(np.abs(least), np.abs(most))
-    # In a model of bodies that only turn, ways are the rounding of the places of any of them.
-    return (way if way > ROUNDING * float(sizes.max()) else 0.0), float(sizes[moving].max())
-
-
-def _extremes(history: History, places: list[int]) -> tuple[np.ndarray, np.ndarray]:
-    """The least and the largest values of some columns; not-a-number where there is one."""
-    least, most = np.full(len(places), np.inf), np.full(len(places), -np.inf)
-    for _, values in history.blocks():
-        for first in range(0, len(places), COLUMNS):
-            some = slice(first, first + COLUMNS)
-            columns = values[:, places[some]]
-            least[some] = np.minimum(least[some], columns.min(axis=0))
-            most[some] = np.maximum(most[some], columns.max(axis=0))
-    return least, most
-
-
 def _sum(settings: Settings, steps: int, off: float, way: float, of: str = WAY) -> Iterator[str]:
     """A sum of estimates against what it is a share of."""
     felt = FELT_BY_BDF if settings.formula.family == "differences" else FELT_IN_SUM
@@ -378,19 +368,17 @@ def _of_small_states(settings: Settings, spent: float, history: History) -> Iter
     """DIFF states so small that ERROR, which is absolute below 1, is a share of them: the worst."""
     found = []
     places = [k for k, name in enumerate(history.names) if name.startswith("DIFF/")]
-    least, most = _extremes(history, places) if places else (np.zeros(0), np.zeros(0))
+    least, most = extremes(history, places) if places else (np.zeros(0), np.zeros(0))
     for k, size in zip(places, np.maximum(-least, most).tolist(), strict=True):
         off = spent * max(1.0, size)
         if isfinite(size) and off > FELT_IN_SUM * size > 0.0:
             found.append((off / size, off, history.names[k]))
     if not found:
         return
-    found.sort(key=lambda state: -state[0])
-    share, off, name = found[0]
-    others = ", ".join(f"{each} {min(part, 1.0):.1%}" for part, _, each in found[1:WORST_STATES])
-    worst = f" ({others}, {len(found)} states in all)" if others else ""
-    amount = f"{off:.1e}, {share:.1%} of" if share < 1.0 else "more than"
-    yield (
-        f"the estimated errors add up to {amount} the largest {name}{worst}: "
-        f"a smaller ERROR than {settings.error:g}, or another unit of the state"
-    )
+    share, off, name = max(found, default=(0.0, 0.0, ""))
+    if name:
+        amount = f"{off:.1e}, {share:.1%} of" if share < 1.0 else "more than"
+        yield (
+            f"the estimated errors add up to {amount} the largest {name} (of {len(found)} such "
+            f"states): a smaller ERROR than {settings.error:g}, or another unit of the state"
+        )

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from adamslite.analyses.findings.accuracy_notes import accuracy_notes, wanted
+from adamslite.analyses.findings.accuracy_notes import accuracy_notes, second_run
 from adamslite.analyses.findings.buckling import buckled
 from adamslite.analyses.findings.slack import compressed
 from adamslite.results.outcomes import Outcome
@@ -16,7 +16,6 @@ from adamslite.results.outcomes import Outcome
 if TYPE_CHECKING:
     from adamslite.analyses.dynamics.history import History
     from adamslite.analyses.session.session import Session
-    from adamslite.results.results import Results
 
 #: So many columns without numbers are named.
 MOST_NAMED = 5
@@ -90,18 +89,12 @@ def _without_value(history: History) -> dict[str, str]:
 
 def _accuracy_note(session: Session) -> str:
     settings, history, counts = session.chosen.settings, session.history, session.counts
-    second = _second_run(session)
-    note = accuracy_notes(session.system, settings, counts, history, second)
+    second, factor = None, 0.0
+    if session.again and session.outcome.is_requested and not session.deck.user.used:
+        options, factor = second_run(settings, counts, session.system.nz, history)
+        second = session.again(**options) if options else None
+        if second and second.outcome not in (session.outcome, Outcome.STEP_LIMIT):
+            second = None
+    note = accuracy_notes(session.system, settings, counts, history, second, factor)
     grown = buckled(session.kernels.model, history)
     return "; ".join(sentence for sentence in (grown, note) if sentence)
-
-
-def _second_run(session: Session) -> Results | None:
-    """The same with a smaller ERROR; None where a run has ended early, or there may be no other."""
-    single = session.outcome.is_requested and not session.deck.user.used
-    if not single or session.again is None:
-        return None
-    asked = wanted(session.chosen.settings, session.counts, session.system.nz, session.history)
-    found = session.again(**asked) if asked else None
-    ends = (session.outcome, Outcome.STEP_LIMIT)
-    return found if found and found.outcome in ends else None
