@@ -1,0 +1,139 @@
+"""What a run is estimated to be off by, beside what it is off by: motions with a truth."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scenes import GROUND, done
+
+import adamslite as al
+
+HEAD = GROUND + "UNITS/SYSTEM=MKS\n"
+
+
+def estimate(results: al.Results, name: str) -> float:
+    """The estimated error of a channel; zero where nothing is said of it."""
+    note = results.meta.get("accuracy", "")
+    if f" in {name} (" not in note:
+        return 0.0
+    return float(note.split(f" in {name} (")[0].removesuffix(" rad").split()[-1])
+
+
+def is_judged(results: al.Results, name: str, off: float, size: float) -> None:
+    """What is off by 1 % or more is told within a factor of 3, what is off by 1e-4 is not."""
+    told = estimate(results, name)
+    assert told or off < 0.01 * size
+    assert not told or off > 1e-4 * size
+    if told and off < 0.3 * size:
+        assert off / 3 < told < 3 * off
+
+
+@pytest.mark.numerical
+@pytest.mark.parametrize("error", [1e-3, 1e-4, 1e-6])
+@pytest.mark.parametrize("method", ["GSTIFF", "RADAU", "HHT", "ABAM"])
+def test_a_twist_of_turning_shafts_is_judged_by_itself(method: str, error: float) -> None:
+    """Two shafts turn by 100 rad, 0.03 rad apart: I s" = -K s - C s' - 50 - 5 sin 300 t.
+
+    On z = (s, s') a linear system: particular solutions, and two exponential functions.
+    """
+    deck = HEAD + (
+        "PART/2, MASS=1, CM=2, IP=1,1,.02\nMARKER/2, PART=2\nMARKER/10, PART=1\n"
+        "JOINT/1, REVOLUTE, I=2, J=10\nMOTION/1, JOINT=1, FUNCTION=100*TIME\n"
+        "PART/3, MASS=1, CM=3, IP=1,1,.05, WZ=100\nMARKER/3, PART=3\nMARKER/11, PART=1\n"
+        "JOINT/2, REVOLUTE, I=3, J=11\n"
+        "SPRINGDAMPER/1, ROTATIONAL, I=3, J=2, KT=5000, CT=.2\n"
+        "SFORCE/1, ROTATIONAL, ACTIONONLY, I=3, J=11, FUNCTION=-50-5*SIN(300*TIME)\n"
+        "REQUEST/1, F2=AZ(3,2)\nEND\n"
+    )
+    results = done(deck, 1.0, 200, integrator=method, error=error)
+    inertia, damping, stiffness, w, t = 0.05, 0.2, 5000.0, 300.0, results.time
+    driven = -5.0 / (stiffness - inertia * w * w + 1j * damping * w)
+    rate = np.roots([inertia, damping, stiffness])
+    held = -50.0 / stiffness
+    start = np.array([-held - driven.imag, -w * driven.real])
+    free = np.linalg.solve(np.array([[1, 1], rate]), start)
+    twist = held + (driven * np.exp(1j * w * t)).imag + (np.exp(np.outer(t, rate)) @ free).real
+    off = np.abs(results["REQUEST/1.F2"] - twist).max()
+    is_judged(results, "SPRINGDAMPER/1", off, np.ptp(twist))
+
+
+@pytest.mark.numerical
+@pytest.mark.parametrize("error", [1e-3, 1e-4, 1e-6])
+@pytest.mark.parametrize("method", ["GSTIFF", "RADAU", "HHT", "ABAM"])
+def test_an_orbit_is_judged_by_its_phase(method: str, error: float) -> None:
+    """Five turns of an orbit of eccentricity 0.9: Kepler's equation."""
+    deck = HEAD + (
+        "POINT_MASS/2, MASS=1, CM=2, QG=.1,0,0, VY=4.358898943540674\nMARKER/2, POINT_MASS=2\n"
+        "SFORCE/1, TRANSLATIONAL, I=2, J=1, FUNCTION=-1/DM(2,1)**2\nEND\n"
+    )
+    results = done(deck, 31.4, 314, integrator=method, error=error)
+    anomaly = results.time.copy()
+    for _ in range(200):
+        anomaly -= (anomaly - 0.9 * np.sin(anomaly) - results.time) / (1.05 - 0.9 * np.cos(anomaly))
+    x, y = np.cos(anomaly) - 0.9, math.sqrt(1 - 0.81) * np.sin(anomaly)
+    off = np.hypot(results["POINT_MASS/2.x"] - x, results["POINT_MASS/2.y"] - y).max()
+    is_judged(results, "POINT_MASS/2", off, 2.0)
+
+
+@pytest.mark.numerical
+@pytest.mark.parametrize("steps", [40, 2000])
+@pytest.mark.parametrize("error", [1e-3, 1e-6])
+@pytest.mark.parametrize("method", ["GSTIFF", "RADAU", "HHT", "ABAM"])
+def test_a_small_vibration_on_a_long_way_is_told(method: str, error: float, steps: int) -> None:
+    """1 mm between two masses that go a kilometre: s = 1e-3 cos(w t)."""
+    deck = HEAD + (
+        "POINT_MASS/2, MASS=1000, CM=2, VX=50\nMARKER/2, POINT_MASS=2\n"
+        "POINT_MASS/3, MASS=1, CM=3, QG=1.001,0,0, VX=50\nMARKER/3, POINT_MASS=3\n"
+        "SPRINGDAMPER/1, TRANSLATIONAL, I=3, J=2, K=400, LENGTH=1\nEND\n"
+    )
+    results = done(deck, 20.0, steps, integrator=method, error=error)
+    apart = results["POINT_MASS/3.x"] - results["POINT_MASS/2.x"] - 1.0
+    off = np.abs(apart - 1e-3 * np.cos(math.sqrt(400 * 1.001) * results.time)).max()
+    assert off < 2e-5 or estimate(results, "SPRINGDAMPER/1") > 1e-6
+    assert off > 2e-7 or "accuracy" not in results.meta
+
+
+@pytest.mark.numerical
+@pytest.mark.parametrize("error", [1e-3, 1e-6])
+@pytest.mark.parametrize("method", ["GSTIFF", "RADAU", "HHT", "ABAM"])
+def test_a_cardan_shaft_at_the_origin_is_right(method: str, error: float) -> None:
+    """tan(driven) = tan(driving)/cos 30 deg; nothing to warn about."""
+    deck = HEAD + (
+        "PART/2, MASS=1, CM=20, IP=.01,.01,.01, WZ=10\nMARKER/20, PART=2\n"
+        "PART/3, MASS=1, CM=30, REULER=0,30D,0, IP=.02,.02,.03, WZ=8.660254037844387\n"
+        "MARKER/30, PART=3\nMARKER/31, PART=1, REULER=0,30D,0\n"
+        "MARKER/22, PART=2, REULER=0,90D,0\nMARKER/32, PART=3, ZP=1,0,0, XP=0,0,1\n"
+        "JOINT/1, REVOLUTE, I=20, J=1\nJOINT/2, REVOLUTE, I=30, J=31\n"
+        "JOINT/3, UNIVERSAL, I=22, J=32\nMOTION/1, JOINT=1, ROTATION, FUNCTION=10*TIME\n"
+        "REQUEST/1, F2=AZ(30,31)\nEND\n"
+    )
+    results = done(deck, 1.0, 200, integrator=method, error=error)
+    turn = np.arctan2(np.sin(10 * results.time) / math.cos(math.pi / 6), np.cos(10 * results.time))
+    off = results["REQUEST/1.F2"] - turn
+    assert np.abs(off - 2 * np.pi * np.round(off / (2 * np.pi))).max() < 1e-4
+    assert "accuracy" not in results.meta
+
+
+@pytest.mark.numerical
+@pytest.mark.parametrize("error", [1e-3, 1e-4, 1e-6])
+@pytest.mark.parametrize("method", ["GSTIFF", "RADAU", "HHT", "ABAM"])
+def test_a_chain_of_pendulums_is_not_determined_for_long(method: str, error: float) -> None:
+    """Two bars that tumble for 15 s: the note says how far runs of different methods agree."""
+    deck = HEAD + (
+        "ACCGRAV/JGRAV=-9.81\nPART/2, MASS=1, CM=21, IP=.1,.1,.1\nMARKER/2, PART=2\n"
+        "MARKER/21, PART=2, QP=.5,0,0\nMARKER/22, PART=2, QP=1,0,0\n"
+        "PART/3, MASS=1, CM=31, IP=.1,.1,.1, QG=1,0,0\nMARKER/3, PART=3\n"
+        "MARKER/31, PART=3, QP=.5,0,0\nMARKER/10, PART=1\n"
+        "JOINT/1, REVOLUTE, I=2, J=10\nJOINT/2, REVOLUTE, I=3, J=22\nEND\n"
+    )
+    best = done(deck, 15.0, 150, integrator="ABAM", error=1e-11)
+    results = done(deck, 15.0, 150, integrator=method, error=error)
+    off = np.abs(results["PART/3.x"] - best["PART/3.x"])
+    note = results.meta.get("accuracy", "")
+    assert "estimated global error" in note
+    assert off.max() > 0.02
+    if "not determined" in note:
+        since = float(note.split("from t = ")[1].split()[0])
+        assert off[results.time < since - 0.5].max() < 0.5
