@@ -24,7 +24,7 @@ from adamslite.integrators import contract
 from adamslite.integrators.event_rows import MARGIN_ROWS, SensorRow
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.model.model import PART
-from adamslite.model.scaling import rotation_weights
+from adamslite.model.scaling import mobilities, rotation_weights
 from adamslite.native.translate import Rows
 
 if TYPE_CHECKING:  # few runs need sparse matrices
@@ -176,6 +176,7 @@ class System:
         self.base = reals([attitude for _, attitude in start]).ravel()
         model = self.model
         self.weight = model.once_of_bodies("rotation weights", lambda: rotation_weights(model))
+        self.mobility = reals(model.once_of_bodies("mobilities", lambda: mobilities(model)))
         if bodies:
             at = self.places
             self.q[at], self.u[at] = [x for x, _ in start], [b.v for b in bodies]

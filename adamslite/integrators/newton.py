@@ -23,6 +23,11 @@ from adamslite.native.translate import Reals, maximum, native
 
 # Increments of positions below this share of the largest position are round-off.
 ROUND_OFF = 2e-15
+# Increments by an older matrix are believed where inertia alone would make no more than this share
+# of ERROR of the residual that is left.
+FELT, SHRUNK = 0.1, 0.3
+# The matrix is renewed where this residual stays above this share of the one before.
+SHRINKING = 0.5
 
 
 @native
@@ -145,6 +150,29 @@ def increment_norm(P: Problem, dz: Reals, cu: float, tied: bool) -> float:
     first = P.sizes.m
     share = largest_share(dz[n + first :], z[first:], P.sizes.nv + P.sizes.ns)
     return maximum(largest, share)
+
+
+@native
+def unresisted_change(P: Problem, cq: float, cv: float, cs: float) -> float:
+    """The largest change by the residual in ``P.F`` if inertia alone resisted it: cq F/m of
+    positions, cv F/m of velocities, cs F of states, F of variables, each against max(1, |value|).
+
+    Increments are this or less, whatever the matrix: one of a stiffness that has gone makes them
+    small, not this.
+    """
+    n, m, nv, largest = P.sizes.n, P.sizes.m, P.sizes.nv, 0.0
+    F, q, u, mobility = P.F, P.q, P.u, P.mobility
+    for i in range(n):
+        share = maximum(cq / max(1.0, abs(q[i])), cv / max(1.0, abs(u[i])))
+        largest = maximum(largest, abs(F[i]) * mobility[i] * share)
+    largest = maximum(largest, largest_share(F[n + m :], P.z[m:], nv))
+    return maximum(largest, cs * largest_share(F[n + m + nv :], P.z[m + nv :], P.sizes.ns))
+
+
+@native
+def serves(felt: float, before: float, error: float) -> bool:
+    """Whether increments of a matrix from before may be believed."""
+    return felt <= error and (felt <= FELT * error or felt <= SHRUNK * before)
 
 
 @native

@@ -20,6 +20,8 @@ EXACT = 1e4
 ROUGH = 0.1 / np.deg2rad(20.0)
 # What has no mass follows what has: it carries no state of its own worth keeping.
 MASSLESS = 1e-4
+# A moment of inertia below this share of the largest of its part is none.
+THIN = 1e-3
 
 
 def rotation_weights(model: Model) -> np.ndarray:
@@ -40,6 +42,20 @@ def rotation_weights(model: Model) -> np.ndarray:
         if place is not None and place.body >= 0 and known[place.body]:
             square[place.body] = max(square[place.body], LEVER**2 * float(place.p @ place.p))
     return 1.0 / square
+
+
+def mobilities(model: Model) -> np.ndarray:
+    """(n,) largest acceleration that a unit load gives each unknown of a body: 1/mass, 1/least
+    moment of inertia; 0 without mass.
+    """
+    width = np.array([body.width for body in model.bodies], dtype=int)
+    table = np.zeros((width.size, 6))
+    table[:, :3] = np.array([body.mass for body in model.bodies])[:, None]
+    parts = [body.inertia for body in model.bodies if body.width == PART]
+    principal = np.linalg.eigvalsh(np.array(parts).reshape(-1, 3, 3))
+    table[width == PART, 3:] = np.maximum(principal[:, :1], THIN * principal[:, 2:])
+    table = np.divide(1.0, table, out=np.zeros_like(table), where=table > 0.0)
+    return table[np.arange(6) < width[:, None]]
 
 
 def coordinate_weights(model: Model, speeds: bool = False) -> np.ndarray:

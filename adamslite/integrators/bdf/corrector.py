@@ -26,11 +26,14 @@ from adamslite.integrators.motion_equations import (
     velocities,
 )
 from adamslite.integrators.newton import (
+    SHRINKING,
     apply_increment,
     increment_norm,
     multiplier_change,
     newton_matrix,
     renews,
+    serves,
+    unresisted_change,
     velocity_change,
 )
 from adamslite.integrators.stepping.outcome import OVERFLOW
@@ -90,16 +93,18 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
     error = error_limit(P, P.settings.fixed_step)
     tolerance = CORRECTOR_SHARE * error + P.settings.adaptivity / C.h
     tested = cu if tests_velocities(P) else 0.0
-    last = 0.0
+    last, felt, made, renew = 0.0, 0.0, -1, False
     motion_from_increments(P, cu, yp, psi, si2)
     for iteration in range(P.settings.max_it):
         P.report.iteration = iteration + 1
-        if not fits_step(C) or renews(P, iteration, C.age < KEEP_STEPS):
+        if renew or not fits_step(C) or renews(P, iteration, C.age < KEEP_STEPS):
             if not newton_matrix(P, L, phases, cu, P.q, v, P.u):
                 C.factored = 0.0
                 return False
             C.factored, C.rate, C.fresh, C.age = cu, 1.0, True, 0
+            made, renew = iteration, False
         residual(P, phases, P.F)
+        before, felt = felt, unresisted_change(P, 1.0 / (cu * cu), tested / (cu * cu), 1.0 / cu)
         solve(L, P.LV, P.pivots, P.F, P.x, P.work)
         scale_increment(P, 2.0 / (1.0 + cu / C.factored))
         size = increment_norm(P, P.F, tested, si2)
@@ -113,18 +118,28 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
         # What an old matrix leaves open shrinks, noise does not: the first change is no noise.
         size = max(size, further_change(P, cu, cu if iteration > 0 else 0.0, si2))
         P.count.newton += 1
-        if iteration > 0:
+        if iteration > 0 and made < iteration:
             C.rate = max(LEAST_RATE, size / last)
-        if iteration > 1 and C.rate > STALLED and C.fresh and size <= STALL_SHARE * error:
-            return True
-        if not size < OVERFLOW or (C.rate > SLOWEST and iteration > 0 and size > tolerance):
+        if not size < OVERFLOW:
             return False
-        if remaining(C, size) <= tolerance:
-            if iteration == 0:
-                C.rate = min(1.0, 2.0 * C.rate)
-            return True
+        if is_small(C, size, error, tolerance, iteration):
+            if made == iteration or serves(felt, before, error):
+                if iteration == 0:
+                    C.rate = min(1.0, 2.0 * C.rate)
+                return True
+            renew = iteration > 0 and felt > SHRINKING * before
+        elif C.rate > SLOWEST and iteration > 0 and size > tolerance:
+            return False
         last = size
     return False
+
+
+@native
+def is_small(C: Control, size: float, error: float, tolerance: float, iteration: int) -> bool:
+    """Whether what is left after an increment of ``size`` may be left."""
+    if iteration > 1 and C.rate > STALLED and C.fresh and size <= STALL_SHARE * error:
+        return True
+    return remaining(C, size) <= tolerance
 
 
 @native

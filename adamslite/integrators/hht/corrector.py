@@ -24,7 +24,14 @@ from adamslite.integrators.motion_equations import (
     residual,
     spread,
 )
-from adamslite.integrators.newton import ROUND_OFF, multiplier_change, renews
+from adamslite.integrators.newton import (
+    ROUND_OFF,
+    SHRINKING,
+    multiplier_change,
+    renews,
+    serves,
+    unresisted_change,
+)
 from adamslite.integrators.stepping.outcome import OVERFLOW
 from adamslite.native.translate import Alone, Reals, maximum, native
 
@@ -55,24 +62,27 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
     tolerance, last = CORRECTOR_SHARE * error_limit(P, C.fixed), 0.0
     if first_order_share(P) > 0.0:
         tolerance *= min(1.0, C.h)  # Velocities are tested: they are off by that of positions / h.
-    full, tries = False, 0
-    C.fresh = False
+    full, tries, felt = False, 0, 0.0
+    C.fresh, C.made = False, -1
     while tries < P.settings.max_it:
         if full or not matrix_fits(C) or renews(P, tries, C.age < C.life):
-            C.factored, C.fresh, C.age = C.h, True, 0
+            C.factored, C.fresh, C.age, C.made = C.h, True, 0, tries
             if not newton_matrix(P, L, C):
                 C.factored = 0.0
                 return False
         residual(P, INDEX3, P.F)
+        before, felt = felt, unresisted_change(P, 1.0 / C.ca, 0.0, 1.0 / C.cs)
         solve(L, P.LV, P.pivots, P.F, P.x, P.work)
         size = move_all(P, C, P.F)
         P.count.newton += 1
         tries += 1
         P.report.iteration = tries
         if remaining(size, last, tries) <= tolerance:
-            note_service(C, tries)
-            return True
-        if not size < OVERFLOW or (tries > 1 and size > SLOW * last):
+            if C.made + 1 == tries or serves(felt, before, error_limit(P, C.fixed)):
+                note_service(C, tries)
+                return True
+            full = tries > 1 and felt > SHRINKING * before
+        elif not size < OVERFLOW or (tries > 1 and size > SLOW * last):
             if full and not size < DIVERGING * last:
                 return False
             if not full and (not C.fresh or not size < last):

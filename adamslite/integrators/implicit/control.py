@@ -11,7 +11,7 @@ class ImplicitControl(StepControl):
     order, highest       of the formula, and the highest that it may take
     equal                steps of this size since it changed
     factored             what the factored matrix was made for (0: there is none); ``age`` in steps,
-                         ``fresh``: made in this step
+                         ``fresh``: made in this step, ``made``: in this iteration of it
     rate                 of convergence
     noisy                rejections in a row that did not help
     """
@@ -22,5 +22,6 @@ class ImplicitControl(StepControl):
     factored: float
     rate: float
     fresh: bool
+    made: int
     age: int
     noisy: int

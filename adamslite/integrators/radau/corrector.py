@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.linalg.plan import Plan
-from adamslite.integrators.newton import ROUND_OFF, renews
+from adamslite.integrators.newton import ROUND_OFF, SHRINKING, renews, serves
 from adamslite.integrators.radau.coefficients import REAL
 from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.history import ORIGIN
@@ -45,7 +45,7 @@ def ready(P: Problem, L: Plan, C: Control, turn: int) -> bool:
     """Derivatives and factors for the present step and iteration."""
     if not C.known or renews(P, turn, C.age < KEEP_STEPS or turn > 0):
         radau_jacobian(P, L, C.h)
-        C.known, C.fresh, C.age, C.factored = True, True, 0, 0.0
+        C.known, C.fresh, C.age, C.factored, C.made = True, True, 0, 0.0, turn
     if not abs(C.h - C.factored) <= SAME_STEP * C.h:
         C.factored = C.h if radau_matrices(P, L, C.h) else 0.0
     return C.factored != 0.0
@@ -54,29 +54,32 @@ def ready(P: Problem, L: Plan, C: Control, turn: int) -> bool:
 @native
 def correct(P: Problem, L: Plan, C: Control) -> bool:
     """Newton from the prediction; True when converged."""
-    h, last = C.h, 0.0
+    h, last, felt = C.h, 0.0, 0.0
     tolerance, most = CORRECTOR_SHARE * P.settings.error, P.settings.max_it
-    C.rate, C.theta = max(C.rate, LEAST_RATE) ** AGED, 0.0
+    C.rate, C.theta, C.made = max(C.rate, LEAST_RATE) ** AGED, 0.0, -1
     for turn in range(most):
         if not ready(P, L, C, turn):
             return False
-        stage_residuals(P, h)
+        before, felt = felt, stage_residuals(P, h)
         stage_increments(P, L)
         size = move_stages(P, h)
         P.count.newton += 1
         C.turns = turn + 1
         if not size < OVERFLOW:
             return False
-        if turn > 0 and last > 0.0:
+        good = C.made == turn or serves(felt, before, P.settings.error)
+        if C.made < turn and last > 0.0:
             C.theta = size / last
             if C.theta > (DIVERGING if turn == 1 else STALLED):
-                return size <= round_off(P, C)
+                return good and size <= round_off(P, C)
             rest = max(LEAST_REST, 1.0 - C.theta)
             C.rate = max(LEAST_RATE, C.theta / rest)
             if turn > 1 and C.theta ** (most - 1.0 - turn) / rest * size > tolerance:
                 return False
         if C.rate * size <= tolerance:
-            return True
+            if good:
+                return True
+            C.known = turn == 0 or felt <= SHRINKING * before
         last = size
     return False
 

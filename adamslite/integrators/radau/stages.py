@@ -48,6 +48,7 @@ from adamslite.integrators.newton import (
     add_mixed_product,
     apply_increment,
     multiplier_change,
+    unresisted_change,
 )
 from adamslite.integrators.radau.coefficients import (
     ALPHA_MODE,
@@ -178,14 +179,18 @@ def stage_motion(P: Problem, h: float) -> None:
 
 
 @native
-def stage_residuals(P: Problem, h: float) -> None:
-    """The equations at the three stages."""
-    nz, at = P.sizes.nz, stage_z(P, Z_ROWS)
+def stage_residuals(P: Problem, h: float) -> float:
+    """The equations at the three stages; returns the largest change that inertia would not resist
+    (:func:`adamslite.integrators.newton.unresisted_change`).
+    """
+    nz, at, largest = P.sizes.nz, stage_z(P, Z_ROWS), 0.0
     for stage in range(1, 4):
         put_stage(P, stage, h)
         residual(P, equations_kept(P), P.F)
+        largest = maximum(largest, unresisted_change(P, 0.5 * h * h, h, h))
         for k in range(nz):
             P.history[at + (stage - 1) * nz + k] = P.F[k]
+    return largest
 
 
 @native
