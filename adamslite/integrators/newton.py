@@ -23,9 +23,9 @@ from adamslite.native.translate import Reals, maximum, native
 
 # Increments of positions below this share of the largest position are round-off.
 ROUND_OFF = 2e-15
-# Increments by an older matrix are believed where inertia alone would make no more than this share
-# of ERROR of the residual that is left.
-FELT, SHRUNK = 0.1, 0.3
+# An older matrix serves while inertia alone would make no more than this many times ERROR of the
+# residual that is left, and the residual shrinks by this share.
+MOST_FELT, SHRUNK = 3.0, 0.3
 # The matrix is renewed where this residual stays above this share of the one before.
 SHRINKING = 0.5
 
@@ -170,9 +170,11 @@ def unresisted_change(P: Problem, cq: float, cv: float, cs: float) -> float:
 
 
 @native
-def serves(felt: float, before: float, error: float) -> bool:
-    """Whether increments of a matrix from before may be believed."""
-    return felt <= error and (felt <= FELT * error or felt <= SHRUNK * before)
+def serves(felt: float, before: float, error: float, share: float) -> bool:
+    """Whether increments of a matrix of another state are believed, from ``unresisted_change`` of
+    the last residual and the one before: both small against ERROR, or shrunk by this matrix.
+    """
+    return felt <= MOST_FELT * error and (felt <= share * error or felt <= SHRUNK * before)
 
 
 @native

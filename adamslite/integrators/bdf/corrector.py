@@ -41,6 +41,9 @@ from adamslite.native.translate import Reals, native
 
 # Newton stops when the estimated remaining error is this share of ERROR.
 CORRECTOR_SHARE = 0.02
+# What inertia alone makes of the residual that is left, as a share of ERROR, whatever the matrix;
+# CORRECTOR_SHARE where velocities, which bodies keep, are not tested.
+FELT = 0.1
 # Near a singular posture round-off keeps increments of velocities from shrinking further, to less
 # than this of the one before: with a new matrix this share of ERROR is as good as it gets.
 STALLED, STALL_SHARE = 0.5, 0.2
@@ -93,6 +96,7 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
     error = error_limit(P, P.settings.fixed_step)
     tolerance = CORRECTOR_SHARE * error + P.settings.adaptivity / C.h
     tested = cu if tests_velocities(P) else 0.0
+    share = FELT if tested > 0.0 else CORRECTOR_SHARE
     last, felt, made, renew = 0.0, 0.0, -1, False
     motion_from_increments(P, cu, yp, psi, si2)
     for iteration in range(P.settings.max_it):
@@ -120,15 +124,12 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
         P.count.newton += 1
         if iteration > 0 and made < iteration:
             C.rate = max(LEAST_RATE, size / last)
-        if not size < OVERFLOW:
-            return False
         if is_small(C, size, error, tolerance, iteration):
-            if made == iteration or serves(felt, before, error):
-                if iteration == 0:
-                    C.rate = min(1.0, 2.0 * C.rate)
+            if made == iteration or serves(felt, before, error, share):
+                C.rate = min(1.0, 2.0 * C.rate) if iteration == 0 else C.rate
                 return True
             renew = iteration > 0 and felt > SHRINKING * before
-        elif C.rate > SLOWEST and iteration > 0 and size > tolerance:
+        elif not size < OVERFLOW or (C.rate > SLOWEST and iteration > 0):
             return False
         last = size
     return False

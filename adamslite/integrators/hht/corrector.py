@@ -59,7 +59,8 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
     here when the matrix was made in this step, with a new matrix at every iteration.  Where that
     happens again and again, the next ones are renewed before that age.
     """
-    tolerance, last = CORRECTOR_SHARE * error_limit(P, C.fixed), 0.0
+    error, last = error_limit(P, C.fixed), 0.0
+    tolerance = CORRECTOR_SHARE * error
     if first_order_share(P) > 0.0:
         tolerance *= min(1.0, C.h)  # Velocities are tested: they are off by that of positions / h.
     full, tries, felt = False, 0, 0.0
@@ -78,7 +79,7 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
         tries += 1
         P.report.iteration = tries
         if remaining(size, last, tries) <= tolerance:
-            if C.made + 1 == tries or serves(felt, before, error_limit(P, C.fixed)):
+            if C.made + 1 == tries or serves(felt, before, error, CORRECTOR_SHARE):
                 note_service(C, tries)
                 return True
             full = tries > 1 and felt > SHRINKING * before

@@ -67,7 +67,7 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
         C.turns = turn + 1
         if not size < OVERFLOW:
             return False
-        good = C.made == turn or serves(felt, before, P.settings.error)
+        good = C.made == turn or serves(felt, before, P.settings.error, CORRECTOR_SHARE)
         if C.made < turn and last > 0.0:
             C.theta = size / last
             if C.theta > (DIVERGING if turn == 1 else STALLED):
