@@ -134,7 +134,7 @@ class System:
         for name in contract.Problem.fields.keys() - set(contract.Problem.references):
             setattr(self, name, getattr(self.problem, name))
         w = 2 * n + self.ns
-        for name in ("q", "u", "a", "ra"):
+        for name in ("q", "u", "a", "ra", "ease"):
             setattr(self, name, np.zeros(n + 1))
         for name in ("z", "rz", "pz"):
             setattr(self, name, np.zeros(rest + 1))

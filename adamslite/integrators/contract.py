@@ -28,7 +28,7 @@ body            (nb,) of :class:`BodyRow`
 mass            (nb,) [mass]
 inertia         (9 nb,) about the mass centre in part axes
 weight          (nb,) of rotations in W G^T mu
-mobility        (n,) acceleration for a unit load: 1/m, 1/least inertia, 0 without
+mobility ease   (n,) 1/m, 1/least inertia, 0 without; what a residual of 1 may change in a step
 gravity         (3,) in ground axes
 base            (9 nb,) attitude from which the rotation vector is counted
 scalar          workspace offset of each multiplier, variable and DIFF state
@@ -330,6 +330,7 @@ class Problem(Record):
     inertia: Reals
     weight: Reals
     mobility: Reals
+    ease: Reals
     gravity: Reals
     base: Reals
     scalar: Ints

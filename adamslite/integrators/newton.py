@@ -153,18 +153,26 @@ def increment_norm(P: Problem, dz: Reals, cu: float, tied: bool) -> float:
 
 
 @native
-def unresisted_change(P: Problem, cq: float, cv: float, cs: float) -> float:
-    """The largest change by the residual in ``P.F`` if inertia alone resisted it: cq F/m of
-    positions, cv F/m of velocities, cs F of states, F of variables, each against max(1, |value|).
-
-    Increments are this or less, whatever the matrix: one of a stiffness that has gone makes them
-    small, not this.
+def weigh_residuals(P: Problem, cq: float, cv: float) -> None:
+    """What a unit residual changes if inertia alone resists it, cq/m of positions and cv/m of
+    velocities against max(1, |value|), the larger of both, into ``P.ease``.
     """
-    n, m, nv, largest = P.sizes.n, P.sizes.m, P.sizes.nv, 0.0
-    F, q, u, mobility = P.F, P.q, P.u, P.mobility
+    q, u, mobility, ease = P.q, P.u, P.mobility, P.ease
+    for i in range(P.sizes.n):
+        x, v = max(1.0, abs(q[i])), max(1.0, abs(u[i]))
+        ease[i] = mobility[i] * max(cq * v, cv * x) / (x * v)
+
+
+@native
+def unresisted_change(P: Problem, cs: float) -> float:
+    """The largest change by the residual in ``P.F`` if inertia alone resisted it, with weights of
+    ``weigh_residuals``; cs F of states and F of variables against max(1, |value|).
+
+    The matrix of a stiffness that has gone makes increments small, but not this.
+    """
+    n, m, nv, F, ease, largest = P.sizes.n, P.sizes.m, P.sizes.nv, P.F, P.ease, 0.0
     for i in range(n):
-        share = maximum(cq / max(1.0, abs(q[i])), cv / max(1.0, abs(u[i])))
-        largest = maximum(largest, abs(F[i]) * mobility[i] * share)
+        largest = maximum(largest, abs(F[i]) * ease[i])
     largest = maximum(largest, largest_share(F[n + m :], P.z[m:], nv))
     return maximum(largest, cs * largest_share(F[n + m + nv :], P.z[m + nv :], P.sizes.ns))
 

@@ -35,6 +35,7 @@ from adamslite.integrators.newton import (
     serves,
     unresisted_change,
     velocity_change,
+    weigh_residuals,
 )
 from adamslite.integrators.stepping.outcome import OVERFLOW
 from adamslite.native.translate import Reals, native
@@ -99,6 +100,7 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
     share = FELT if tested > 0.0 else CORRECTOR_SHARE
     last, felt, made, renew = 0.0, 0.0, -1, False
     motion_from_increments(P, cu, yp, psi, si2)
+    weigh_residuals(P, 1.0 / (cu * cu), tested / (cu * cu))
     for iteration in range(P.settings.max_it):
         P.report.iteration = iteration + 1
         if renew or not fits_step(C) or renews(P, iteration, C.age < KEEP_STEPS):
@@ -108,7 +110,7 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
             C.factored, C.rate, C.fresh, C.age = cu, 1.0, True, 0
             made, renew = iteration, False
         residual(P, phases, P.F)
-        before, felt = felt, unresisted_change(P, 1.0 / (cu * cu), tested / (cu * cu), 1.0 / cu)
+        before, felt = felt, unresisted_change(P, 1.0 / cu)
         solve(L, P.LV, P.pivots, P.F, P.x, P.work)
         scale_increment(P, 2.0 / (1.0 + cu / C.factored))
         size = increment_norm(P, P.F, tested, si2)

@@ -31,6 +31,7 @@ from adamslite.integrators.newton import (
     renews,
     serves,
     unresisted_change,
+    weigh_residuals,
 )
 from adamslite.integrators.stepping.outcome import OVERFLOW
 from adamslite.native.translate import Alone, Reals, maximum, native
@@ -65,6 +66,7 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
         tolerance *= min(1.0, C.h)  # Velocities are tested: they are off by that of positions / h.
     full, tries, felt = False, 0, 0.0
     C.fresh, C.made = False, -1
+    weigh_residuals(P, 1.0 / C.ca, 0.0)
     while tries < P.settings.max_it:
         if full or not matrix_fits(C) or renews(P, tries, C.age < C.life):
             C.factored, C.fresh, C.age, C.made = C.h, True, 0, tries
@@ -72,7 +74,7 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
                 C.factored = 0.0
                 return False
         residual(P, INDEX3, P.F)
-        before, felt = felt, unresisted_change(P, 1.0 / C.ca, 0.0, 1.0 / C.cs)
+        before, felt = felt, unresisted_change(P, 1.0 / C.cs)
         solve(L, P.LV, P.pivots, P.F, P.x, P.work)
         size = move_all(P, C, P.F)
         P.count.newton += 1

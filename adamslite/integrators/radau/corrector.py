@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.linalg.plan import Plan
-from adamslite.integrators.newton import ROUND_OFF, SHRINKING, renews, serves
+from adamslite.integrators.newton import ROUND_OFF, SHRINKING, renews, serves, weigh_residuals
 from adamslite.integrators.radau.coefficients import REAL
 from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.history import ORIGIN
@@ -57,6 +57,7 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
     h, last, felt = C.h, 0.0, 0.0
     tolerance, most = CORRECTOR_SHARE * P.settings.error, P.settings.max_it
     C.rate, C.theta, C.made = max(C.rate, LEAST_RATE) ** AGED, 0.0, -1
+    weigh_residuals(P, 0.5 * h * h, h)
     for turn in range(most):
         if not ready(P, L, C, turn):
             return False

@@ -187,7 +187,7 @@ def stage_residuals(P: Problem, h: float) -> float:
     for stage in range(1, 4):
         put_stage(P, stage, h)
         residual(P, equations_kept(P), P.F)
-        largest = maximum(largest, unresisted_change(P, 0.5 * h * h, h, h))
+        largest = maximum(largest, unresisted_change(P, h))
         for k in range(nz):
             P.history[at + (stage - 1) * nz + k] = P.F[k]
     return largest
