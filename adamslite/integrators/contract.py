@@ -25,8 +25,7 @@ sizes settings  :class:`Sizes`, :class:`RunSettings`
 count report    :class:`Counts`, :class:`Report`
 search          the location of events (:class:`Search`);  undoing: :class:`Undoing`
 body            (nb,) of :class:`BodyRow`
-mass            (nb,) [mass]
-inertia         (9 nb,) about the mass centre in part axes
+mass inertia    (nb,) [mass]; (9 nb,) about the mass centre in part axes
 weight          (nb,) of rotations in W G^T mu
 mobility ease   (n,) 1/m, 1/least inertia, 0 without; what a residual of 1 may change in a step
 gravity         (3,) in ground axes
@@ -63,8 +62,7 @@ lane_runs lane  of :class:`LaneRun`: loads that are evaluated by component; numb
                 for that, in rows of equal length;  lane_bodies: those with other loads
 block           the rows that ``record`` has room for (:class:`Block`)
 audit           balance of energy (:class:`Audit`);  uncounted: counts before it was drawn up
-tape            accepted states of the run (:class:`Tape`)
-budget          what a run may spend (:class:`Budget`)
+tape budget     accepted states of the run (:class:`Tape`); what it may spend (:class:`Budget`)
 pattern         per iteration whether it renews the Newton matrix, repeated; empty: as needed
 ==============  =================================================================================
 """
@@ -136,7 +134,6 @@ MODE_STATICS = 5.0
     FULL,
     HELD,
 ) = range(15)
-
 
 # What is done to equations besides integration: see adamslite.equations.operations.
 (
