@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from adamslite.native.translate import Record
 
-# How guards are read, and the bit of those at which a value jumps.
+# How guards are read, and the bit of those at which a value jumps; how zones are read.
 STRICT, WEAK, JUMPS = 0, 1, 4
+ZONE, POLE, ROOT, NARROW = 3, 5, 6, 7
 # What a branch adds to the gap of its relation.
 HUGE = 1e200
 # Rows of P.margin: at the start, at the end and inside of the step; the bracket; how often a guard
@@ -20,8 +21,8 @@ ZONE_EARLY, ZONE_LATE = 3, 4
 # A share of the step that says that there is none.
 NONE = 2.0
 # What the look at the present share is for: the rates at the end and the start, the middle of the
-# window, the rate at its right side, a dip in it, the bracket of a crossing.
-RATE_BEHIND, RATE_BEFORE, MIDDLE, RATE_RIGHT, DIP, BRACKET = range(6)
+# window, the rate at its right side, a dip in it, the bracket of a crossing, the start itself.
+RATE_BEHIND, RATE_BEFORE, MIDDLE, RATE_RIGHT, DIP, BRACKET, AT_START = range(7)
 
 
 class Search(Record):
@@ -47,6 +48,8 @@ class Search(Record):
     past_size            size of the step before, 0 when its rates are not known
     ahead                time from the start of the step to where its early rates reach
     since, tries         the start of the step, and how many tries from there were looked at
+    quiet, stale         until when poles and zones of narrow functions stay far away, and whether
+                         what is known of the start of the step is that of an earlier one
     """
 
     stop_at: int
@@ -84,6 +87,8 @@ class Search(Record):
     ahead: float
     since: float
     tries: int
+    quiet: float
+    stale: bool
 
 
 class SensorRow(Record):

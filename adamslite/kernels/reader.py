@@ -30,8 +30,10 @@ class ExpressionReader:
 
     def _defined(self, value: Read) -> Read:
         """What is known to be undefined (a pole, a division by zero) becomes not-a-number."""
-        if isinstance(value, Node) and self._is_undefined(value):
-            return self.scope.symbol("nan")
+        if isinstance(value, Node):
+            self.scope.written[value] = None
+            if self._is_undefined(value):
+                return self.scope.symbol("nan")
         return value
 
     def _is_undefined(self, value: Expr) -> bool:

@@ -128,6 +128,8 @@ class Scope:
         self._rated: dict[bool, set[Expr]] = {False: set(), True: set()}
         """Expressions of whose symbols the rates are."""
         self.read: Callable[[Tree], Read] = _unbound
+        self.written: dict[Expr, None] = {}
+        """What operations and functions of the deck have given."""
 
     def symbol(self, *leaf: str | int) -> Symbol:
         """The symbol of one leaf."""

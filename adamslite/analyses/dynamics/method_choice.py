@@ -33,7 +33,7 @@ from adamslite.integrators import contract
 from adamslite.integrators.contract import SPECTRUM
 from adamslite.language.method import AUTO, CONSTRAINTS, ROTATIONS, STATE_JUMPS, methods
 from adamslite.model.model import PART, NodeKey
-from adamslite.symbolic.guards import JUMPS
+from adamslite.symbolic.guards import JUMPS, POLE, ROOT
 
 if TYPE_CHECKING:
     from adamslite.analyses.dynamics.dynamic import Settings
@@ -163,14 +163,15 @@ def what_changes(system: System, error: float) -> str:
     that may jump with the state, unless ERROR is rough, or rises within a zone.
     """
     jumping = [s for s, kind in system.guarded["watch"] if kind >= JUMPS and error < ROUGH]
-    rising = [statement for statement, _ in system.guarded["zone"]]
+    rising = [s for s, kind in system.guarded["zone"] if kind not in (POLE, ROOT)]
     if jumping:
         return (
             f"{jumping[0].label} may jump with the state (IF, SIGN), and equal steps look past that"
         )
     if rising:
         return (
-            f"{rising[0].label} rises within a zone (STEP, IMPACT), and equal steps may skip that"
+            f"{rising[0].label} rises within a zone (STEP, IMPACT, TANH), and equal steps may "
+            "skip that"
         )
     return ""
 

@@ -17,7 +17,7 @@ from math import floor
 from adamslite.integrators.audit.path import put_on_path, solve_on_path
 from adamslite.integrators.audit_record import POINTS, ROWS_OF_GUARDS
 from adamslite.integrators.contract import ELASTIC, LOADS, REACTIONS, Problem
-from adamslite.integrators.event_rows import STRICT, WEAK
+from adamslite.integrators.event_rows import NARROW, POLE, ROOT, STRICT, WEAK, ZONE
 from adamslite.integrators.linalg.plan import TINY, Plan
 from adamslite.integrators.motion_equations import CLOCK, PART, WATCH, guard_values, run_groups
 from adamslite.native.translate import Reals, native
@@ -26,8 +26,6 @@ from adamslite.native.translate import Reals, native
 FAR, NEAR = 0.9061798459386640, 0.5384693101056831
 OUTER, INNER, MIDDLE = 0.2369268850561891, 0.4786286704993665, 0.5688888888888889
 ROUGH_OUTER, ROUGH_MIDDLE = 0.4059280294219, 1.1881439411562
-# How a place within a zone is read (:mod:`adamslite.symbolic.guards`).
-ZONED = 3
 # A change nearer to the end of a panel than this share of the step is at that end; guards are
 # evaluated within, where they have left it.
 SAME_PLACE = 1e-9
@@ -100,10 +98,14 @@ def look_at_guards(P: Problem, row: int) -> None:
 
 @native
 def branch_side(kind: int, value: float) -> float:
-    """The branch of a guard: a sign, or a whole number; before, in or behind a zone."""
+    """The branch of a guard: a sign, or a whole number; before, in or behind a zone; poles have
+    one.
+    """
+    if kind == POLE or kind == ROOT:
+        return 0.0
     if kind == STRICT or kind == WEAK:
         return 1.0 if value > 0.0 else -1.0
-    if kind == ZONED:
+    if kind == ZONE or kind == NARROW:
         return max(-1.0, min(1.0, floor(value)))
     return floor(value)
 

@@ -16,6 +16,7 @@ from adamslite.integrators.events.events import change_here, pass_event
 from adamslite.integrators.events.harmless import take_harmless
 from adamslite.integrators.events.search import (
     ends_there,
+    is_quiet,
     judge,
     open_search,
     shorter,
@@ -35,7 +36,7 @@ def passes_crossing(P: Problem, L: Plan, C: Control) -> bool:
     """Whether a branch changes within the step that has passed its test: the first change is
     located.
     """
-    if P.sizes.watched + P.sizes.zones == 0:
+    if is_quiet(P, C.t, C.h):
         return False
     open_search(P, C.t, C.h)
     take_harmless(P, L, equations_kept(P), C.cu)

@@ -12,6 +12,9 @@ Where p fails to predict what is found inside, the step is examined window by wi
 The place D within the zone of a smooth step follows the same cubic: a step that touches the zone
 0 < D < 1 may change D by a share of it, or it would pass a force without having felt it.
 Before it is tried, D is continued by its rate at the start.
+A pole, what an expression divides by, may come down to a quarter within a step at most: a step ends
+where an expression that grows beyond all bounds is felt, and passes none.  A root, what SQRT takes,
+only must not change its sign.
 
 Reference: Shampine, Gladwell, Brankin, ACM Trans. Math. Softw. 17 (1991) 11, "Reliable solution of
 special event location problems for ODEs".
@@ -20,7 +23,18 @@ special event location problems for ODEs".
 from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
-from adamslite.integrators.event_rows import END, INSIDE, NONE, START, ZONE_EARLY, ZONE_LATE
+from adamslite.integrators.event_rows import (
+    END,
+    INSIDE,
+    NARROW,
+    NONE,
+    POLE,
+    ROOT,
+    START,
+    ZONE,
+    ZONE_EARLY,
+    ZONE_LATE,
+)
 from adamslite.integrators.linalg.plan import HUGE
 from adamslite.native.translate import native
 
@@ -35,8 +49,13 @@ DEEPEST = 0.25
 # does not test velocities; what it aims at when it may not, as a part of that; how far before the
 # zone it stops when it comes from outside.
 SHARE_OF_ZONE, UNTESTED, AIM, BEFORE_ZONE = 0.34, 3.0, 0.7, 0.02
+# A step brings a pole down to no less than this part of its value; part that it aims at else.
+NEAR_POLE, AIM_AT_POLE = 0.25, 0.35
 # Shorter steps are not made for the sake of a zone, as a share of HMAX.
 LEAST_CUT = 1e-10
+# Poles and narrow zones need no look for so many steps, while they come nearer by no more than this
+# share of the way to them.
+MOST_QUIET, LITTLE_NEARER = 16.0, 0.1
 # Halvings in the solution of a cubic.
 HALVINGS = 50
 
@@ -124,14 +143,25 @@ def share_of_zone(P: Problem, tested: bool) -> float:
 
 
 @native
+def span_of(P: Problem, kind: int) -> float:
+    """Share of a zone that a step may cross; that of a narrow function has to be seen only."""
+    return SHARE_OF_ZONE if kind == NARROW else P.search.span
+
+
+@native
 def share_into_zones(P: Problem) -> float:
     """The share of the step that crosses no zone too quickly; ``NONE`` when the whole does not."""
-    count, h, span, least = P.sizes.zones, P.search.size, P.search.span, NONE
+    count, h, least = P.sizes.zones, P.search.size, NONE
     if count == 0 or P.settings.fixed_step > 0.0:
         return NONE
     for k in range(count):
         a, b = P.zone[START * count + k], P.zone[END * count + k]
         r, s = h * P.zone[ZONE_EARLY * count + k], h * P.zone[ZONE_LATE * count + k]
+        kind = P.kind[P.sizes.clocks + P.sizes.watched + k]
+        if kind == POLE or kind == ROOT:
+            least = min(least, share_off_pole(P, kind, a, b, r, s))
+            continue
+        span = span_of(P, kind)
         # The cubic stays between these: most steps are outside of most zones.
         low = min(a, b) - DEEPEST * (abs(r) + abs(s))
         high = max(a, b) + DEEPEST * (abs(r) + abs(s))
@@ -143,15 +173,72 @@ def share_into_zones(P: Problem) -> float:
 
 
 @native
+def share_off_pole(P: Problem, kind: int, a: float, b: float, r: float, s: float) -> float:
+    """The share of the step that ends away from a pole or a root; ``NONE`` for the whole."""
+    ahead, above = P.search.ahead / P.search.size, NEAR_POLE
+    if kind == ROOT:
+        above = 0.0
+    if a < 0.0:
+        a, b, r, s = 0.0 - a, 0.0 - b, 0.0 - r, 0.0 - s
+    # The cubic stays above this.
+    if not (a > 0.0 and min(a, b) - DEEPEST * (abs(r) + abs(s)) < above * a and abs(b) < HUGE):
+        return NONE
+    slope = tangent(r, s, b - a, ahead, LITTLE)
+    r, s = slope, tangent(s, r, b - a, LITTLE, ahead)
+    low, place = b, 1.0
+    share = lowest(a, b, r, s)
+    if share < 1.0 and cubic(a, b, r, s, share) < low:
+        low, place = cubic(a, b, r, s, share), share
+    if not low < above * a:
+        return NONE
+    return share_below(a, b, r, s, place, AIM_AT_POLE * a)
+
+
+@native
+def share_below(a: float, b: float, r: float, s: float, end: float, level: float) -> float:
+    """The share before ``end`` at which the cubic falls to a level, by halving."""
+    low, high = 0.0, end
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        if cubic(a, b, r, s, middle) > level:
+            low = middle
+        else:
+            high = middle
+    return low
+
+
+@native
+def quiet_time(P: Problem) -> float:
+    """Time after the step for which poles and narrow zones stay far away, by their rates and what
+    these changed in the step; 0 with other zones.
+    """
+    count, h, time = P.sizes.zones, P.search.size, MOST_QUIET * P.search.size
+    for k in range(count):
+        kind, b = P.kind[P.sizes.clocks + k], P.zone[END * count + k]
+        if kind <= ZONE:
+            return 0.0
+        way = LITTLE_NEARER * (max(0.0 - b, b - 1.0) if kind == NARROW else abs(b))
+        rate = abs(P.zone[ZONE_LATE * count + k])
+        bend = abs(P.zone[ZONE_LATE * count + k] - P.zone[ZONE_EARLY * count + k]) / h
+        while time > 0.0 and time * (rate + bend * time) > way:
+            time = 0.5 * time if time > h else 0.0
+    return time
+
+
+@native
 def expected_share(P: Problem, h: float) -> float:
     """The share of the step ahead that crosses no zone too quickly at the present rates; ``NONE``
     when the whole does not, or when they are not known.
     """
-    count, span, least = P.sizes.zones, P.search.span, NONE
+    count, least = P.sizes.zones, NONE
     if count == 0 or P.settings.fixed_step > 0.0 or not P.search.known:
         return NONE
     for k in range(count):
         a, r = P.zone[START * count + k], h * P.zone[ZONE_EARLY * count + k]
+        kind = P.kind[P.sizes.clocks + P.sizes.watched + k]
+        if kind == POLE or kind == ROOT:
+            continue
+        span = span_of(P, kind)
         if abs(r) > span and min(a, a + r) < 1.0 and max(a, a + r) > 0.0 and abs(r) < HUGE:
             least = min(least, share_into(a, a + r, r, r, span))
             least = min(least, share_into(1.0 - a, 1.0 - a - r, 0.0 - r, 0.0 - r, span))
@@ -172,11 +259,4 @@ def share_into(a: float, b: float, r: float, s: float, span: float) -> float:
     level = a + AIM * span
     if a < 0.0 - 2.0 * BEFORE_ZONE:
         level = 0.0 - BEFORE_ZONE
-    low, high = 0.0, peak
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        if cubic(a, b, r, s, middle) < level:
-            low = middle
-        else:
-            high = middle
-    return low
+    return share_below(0.0 - a, 0.0 - b, 0.0 - r, 0.0 - s, peak, 0.0 - level)

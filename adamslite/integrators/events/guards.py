@@ -29,7 +29,7 @@ from adamslite.integrators.event_rows import (
     ZONE_EARLY,
     ZONE_LATE,
 )
-from adamslite.integrators.events.dips import LITTLE, cubic, lowest
+from adamslite.integrators.events.dips import LITTLE, cubic, lowest, quiet_time
 from adamslite.integrators.events.sensors import sense
 from adamslite.integrators.motion_equations import WATCH, guard_values
 from adamslite.native.translate import native
@@ -172,6 +172,7 @@ def look(P: Problem, row: int) -> int:
 def look_at_start(P: Problem) -> None:
     """The workspace's state is the start of the next step, with rates that are not known."""
     P.search.taken, P.search.known, P.search.past_size = False, False, 0.0
+    P.search.quiet, P.search.stale = 0.0 - HUGE, False
     look(P, START)
 
 
@@ -185,8 +186,10 @@ def copy_margins(P: Problem, source: int, target: int) -> None:
 def keep_margins(P: Problem) -> None:
     """The step is accepted: its end is the next start."""
     S, zones = P.search, P.sizes.zones
-    if P.sizes.watched + zones == 0:
+    if P.sizes.watched + zones == 0 or S.stale:
         return
+    if P.sizes.watched == 0:
+        S.quiet = S.since + S.size + quiet_time(P)
     S.turned = 0
     keep_closest(P)
     copy_margins(P, START, PAST)

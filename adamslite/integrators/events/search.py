@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.event_rows import (
+    AT_START,
     BRACKET,
     DIP,
     EARLY,
@@ -56,6 +57,20 @@ NUDGE, LEAST_NUDGE = 0.2, 0.1
 
 
 @native
+def is_quiet(P: Problem, t: float, h: float) -> bool:
+    """Whether nothing has to be looked at in the step from ``t``: nothing is watched, or poles and
+    zones of narrow functions that are far away.
+    """
+    S = P.search
+    if P.sizes.watched + P.sizes.zones == 0:
+        return True
+    if P.sizes.watched > 0 or t + h > S.quiet:
+        return False
+    S.found, S.cut, S.known, S.stale = NONE, NONE, False, True
+    return True
+
+
+@native
 @seldom
 def open_search(P: Problem, t: float, h: float) -> None:
     """Look at the end of the step from ``t``, which stands in the workspace."""
@@ -75,6 +90,8 @@ def open_search(P: Problem, t: float, h: float) -> None:
         S.tolerance = max(share * h + TIME_ROUND_OFF * abs(t), least_step(P))
     if look(P, END) > 0:
         S.high = 1.0
+    if S.stale:
+        S.stage, S.share = AT_START, 0.0
 
 
 @native
@@ -100,7 +117,11 @@ def judge(P: Problem) -> None:
     """Look at the guards at the workspace's state, and choose another share or close the search."""
     S = P.search
     found = look(P, INSIDE) > 0
-    if S.stage == RATE_BEHIND:
+    if S.stage == AT_START:
+        for k in range(P.sizes.zones):
+            P.zone[START * P.sizes.zones + k] = P.zone[INSIDE * P.sizes.zones + k]
+        S.stale, S.stage, S.share = False, RATE_BEHIND, 1.0 - LITTLE
+    elif S.stage == RATE_BEHIND:
         rates(P, END, LATE, ZONE_LATE)
         S.rated, S.stage, S.share = True, RATE_BEFORE, LITTLE
         if S.known:

@@ -14,6 +14,7 @@ from adamslite.integrators.event_rows import DIP
 from adamslite.integrators.events.events import change_here, pass_event
 from adamslite.integrators.events.search import (
     ends_there,
+    is_quiet,
     judge,
     open_search,
     shorter,
@@ -36,7 +37,7 @@ def passes_crossing(P: Problem, L: Plan, C: Control) -> bool:
     """Whether a branch changes within the step that has passed its test, whose end is in the
     workspace: the first change is located.
     """
-    if P.sizes.watched + P.sizes.zones == 0:
+    if is_quiet(P, C.t, C.h):
         return False
     w, h, exact = C.size, C.h, False
     between, end = P.history[BETWEEN * w :], P.history[NEXT_STATE * w :]

@@ -8,6 +8,7 @@ from adamslite.integrators.events.events import change_here, pass_event
 from adamslite.integrators.events.harmless import take_harmless
 from adamslite.integrators.events.search import (
     ends_there,
+    is_quiet,
     judge,
     open_search,
     shorter,
@@ -36,7 +37,7 @@ def passes_crossing(P: Problem, L: Plan, C: Control) -> bool:
     """Whether a branch changes within the step that has passed its test: the first change is
     located.  Equal steps end where they end.
     """
-    if P.sizes.watched + P.sizes.zones == 0 or C.fixed > 0.0:
+    if C.fixed > 0.0 or is_quiet(P, C.t, C.h):
         return False
     open_search(P, C.t, C.h)
     take_harmless(P, L, INDEX3, C.cu)

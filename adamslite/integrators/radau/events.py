@@ -24,6 +24,7 @@ from adamslite.integrators.events.harmless import force_ahead, take_harmless
 from adamslite.integrators.events.search import (
     CLOSE,
     ends_there,
+    is_quiet,
     judge,
     open_search,
     shorter,
@@ -58,7 +59,7 @@ def passes_crossing(P: Problem, L: Plan, C: Control) -> bool:
     """Whether a branch changes within the step that has passed its test: the first change is
     located.
     """
-    if P.sizes.watched + P.sizes.zones == 0:
+    if is_quiet(P, C.t, C.h):
         return False
     t, h = C.t, C.h
     put_end(P, C)
