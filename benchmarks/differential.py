@@ -36,7 +36,7 @@ import json
 import sys
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import partial
 from multiprocessing import get_context
 from pathlib import Path
@@ -113,14 +113,17 @@ def attempt(
 
 def run_all(
     tasks: Iterable[Task], only: Sequence[str], errors: Sequence[float], jobs: int,
-    kept: dict[str, Any] | None = None,
+    kept: dict[str, Any] | None = None, out: Path | None = None,
 ) -> list[Report]:  # fmt: skip
-    """Judge decks in parallel, saying on the way what is silent."""
+    """Judge decks in parallel, saying on the way what is silent; ``out`` gets a line for each."""
     found = []
     work = partial(attempt, only=only, errors=errors, kept=kept)
     with get_context("spawn").Pool(jobs, maxtasksperchild=100) as pool:
         for report in pool.imap_unordered(work, tasks):
             found.append(report)
+            if out:
+                with out.open("a", encoding="utf-8") as file:
+                    file.write(json.dumps(asdict(report)) + "\n")
             for judged in report.judged:
                 if judged.verdict in (SILENT, SLOW):
                     print(line_of(report, judged), flush=True)
@@ -168,6 +171,16 @@ def show(report: Report) -> None:
         alarm = "false alarm" if judged.false_alarm else judged.verdict
         print(f"  {judged.method:11} {judged.error:5g} {alarm:11} {judged.off:8.1e} "
               f"{judged.kind:8}  {judged.said}")  # fmt: skip
+
+
+def reports_of(files: Iterable[Path]) -> list[Report]:
+    """Reports that ``--out`` wrote."""
+    lines = [json.loads(line) for file in files for line in file.open(encoding="utf-8")]
+    return [
+        Report(Task(**each["task"]), each["title"], each["unknown"],
+               tuple(Judged(**judged) for judged in each["judged"]))
+        for each in lines
+    ]  # fmt: skip
 
 
 def why_unknown(report: Report) -> str:
@@ -233,6 +246,8 @@ def arguments_of(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--text", action="store_true", help="print the decks")
     parser.add_argument("--full", action="store_true", help="a table by kind, method and ERROR")
     parser.add_argument("--keep", type=Path, help="write silent decks into this folder")
+    parser.add_argument("--out", type=Path, help="append a line of JSON for every deck")
+    parser.add_argument("--tables", type=Path, nargs="+", help="only the tables of such files")
     parser.add_argument("--sample", action="store_true", help="decks whose truths are kept")
     parser.add_argument("--renew-sample", action="store_true")
     return parser.parse_args(arguments)
@@ -244,6 +259,9 @@ def main(arguments: list[str] | None = None) -> int:
     if args.renew_sample:
         renew_sample(args.jobs)
         return 0
+    if args.tables:
+        print_tables(reports_of(args.tables), args.full)
+        return 0
     kept: dict[str, Any] = {}
     if args.sample:
         tasks, kept = sample()
@@ -254,7 +272,7 @@ def main(arguments: list[str] | None = None) -> int:
     for task in tasks if args.text else ():
         problem = posed(task.kind, task.number, task.seed)
         print("\n".join([problem.text, *problem.commands]))
-    reports = run_all(tasks, args.only, args.error, args.jobs, kept)
+    reports = run_all(tasks, args.only, args.error, args.jobs, kept, args.out)
     for report in reports if args.show else ():
         show(report)
     print_tables(reports, args.full)
