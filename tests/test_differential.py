@@ -12,6 +12,7 @@ import pytest
 from tiers import fast
 
 from adamslite import simulate
+from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 from adamslite.verification.variants import Variant
 from benchmarks.differential import AUTO, RIGHT, SILENT, Task, attempt, sample
@@ -132,6 +133,14 @@ def test_judging_runs_a_method_as_a_user_does() -> None:
     problem, truth = torsion()
     found = Bench(problem).judge(Variant("ABAM"), 1e-6, truth)
     assert found.method == "ABAM" and found.kind == "angle"
+
+
+@pytest.mark.numerical
+def test_a_step_that_ends_within_round_off_of_another_pace_has_reached_it() -> None:
+    """Both ended STEP_TOO_SMALL with a step of one rounding of the time, which led to a fence."""
+    for kind, method in (("scales", "RADAU"), ("stiffness", "GSTIFF")):
+        results = simulate(pose(kind, 7, 31).text, integrator=method, error=1e-4)
+        assert results.outcome is Outcome.DONE, results.message
 
 
 def _changed(results: Results, name: str, amount: float) -> Results:

@@ -25,11 +25,11 @@ WHOLE = 1e-7
 
 @native
 def set_pace(P: Problem, t: float) -> None:
-    """Look up how long steps may be from ``t`` on; a step that is undone leads back."""
-    at = P.search.pace_at
-    while at > 0 and P.paces[at].since > t:
+    """Look up how long steps may be from ``t``, within round-off; an undone step leads back."""
+    at, reached = P.search.pace_at, t + least_step(P)
+    while at > 0 and P.paces[at].since > reached:
         at -= 1
-    while at + 1 < P.paces.size and P.paces[at + 1].since <= t:
+    while at + 1 < P.paces.size and P.paces[at + 1].since <= reached:
         at += 1
     P.search.pace_at = at
 
