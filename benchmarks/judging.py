@@ -100,15 +100,18 @@ class Bench:
 
 def verdict(method: str, error: float, problem: Posed, results: Results, truth: Truth) -> Judged:
     """Judge results that reached their end."""
-    off, kind = off_by(problem, results, truth)
+    off, kind = off_by(problem, results, truth, error)
     said = told(results)
     if off <= limit(error):
         return Judged(method, error, RIGHT, off, kind, said)
     return Judged(method, error, WARNED if said else SILENT, off, kind, said)
 
 
-def off_by(problem: Posed, results: Results, truth: Truth) -> tuple[float, str]:
-    """The largest error of a run and the kind of its channel; infinite where rows are missing."""
+def off_by(problem: Posed, results: Results, truth: Truth, error: float = 0.0) -> tuple[float, str]:
+    """The largest error of a run and the kind of its channel; infinite where rows are missing.
+
+    A SENSOR may meet its value where its channel is off by that or, between outputs, by ERROR.
+    """
     rows, given = _rows(problem, results)
     halted = results.outcome is Outcome.HALTED
     if not halted and len(rows) < len(truth.least):
@@ -124,7 +127,7 @@ def off_by(problem: Posed, results: Results, truth: Truth) -> tuple[float, str]:
         if off > worst or not kind:
             worst, kind = off, channel.kind
     if problem.halts:
-        first, last = problem.halts(worst)
+        first, last = problem.halts(max(worst, error))
         reached = float(results.time[-1]) if halted else inf
         room = 1e-9 * problem.end
         if not first - room <= reached <= last + room:
