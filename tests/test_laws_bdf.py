@@ -349,8 +349,8 @@ def test_a_fast_start_far_from_the_origin(error, formulation):
     """F = 1e5 t on 1 kg at x = 100 m: v = 5e4 t^2, x - 100 = 5e4 t^3/3.
 
     The first steps take nanoseconds, in which the mass moves less than the round-off of 100 m
-    (1.4e-14 m). ERROR is against 100 m: a step may err by 100 ERROR, and the longest decide; with a new
-    matrix in every iteration (PATTERN=T) up to 127 ERROR is what the formula leaves. Index 3
+    (1.4e-14 m). ERROR is against 100 m: a step may err by 100 ERROR, and the longest decide; with a
+    new matrix in every iteration (PATTERN=T) up to 127 ERROR is what the formula leaves. Index 3
     tests positions only: a step with j h^3 = ERROR, j = 1e5 m/s^3, has an error ERROR/h of the
     velocity; ten of them last until the end.
     """

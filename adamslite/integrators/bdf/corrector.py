@@ -42,8 +42,8 @@ from adamslite.native.translate import Reals, native
 
 # Newton stops when the estimated remaining error is this share of ERROR.
 CORRECTOR_SHARE = 0.02
-# What inertia alone makes of the residual that is left, as a share of ERROR, whatever the matrix: as
-# much as the error test admits, and CORRECTOR_SHARE where velocities, which last, are not tested.
+# What inertia alone makes of the residual that is left, as a share of ERROR, whatever the matrix:
+# as much as the error test admits, and CORRECTOR_SHARE where velocities are not tested.
 FELT = 1.0
 # Near a singular posture round-off keeps increments of velocities from shrinking further, to less
 # than this of the one before: with a new matrix this share of ERROR is as good as it gets.
