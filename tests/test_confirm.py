@@ -76,6 +76,20 @@ def test_a_run_that_differs_from_its_witnesses_says_by_how_much():
     assert "NOT CONFIRMED" in found.verdict and "PART/2.y may be off by" in found.verdict
 
 
+def test_witnesses_end_their_steps_at_times_of_their_own():
+    """What is passed between the same places three times is not confirmed by that."""
+    results, longest = run(FALL, 1.0, 10), []
+
+    def again(**options):
+        longest.append(options["hmax"])
+        return run(FALL, 1.0, 10, **options)
+
+    confirmation(results, Settings(), again)
+    own, other = longest
+    assert other < own < 0.9e-3
+    assert min(abs(own / other * k - round(own / other * k)) for k in range(1, 6)) > 0.02
+
+
 confirmed = simulation._confirmed
 
 

@@ -1,8 +1,8 @@
 """`--confirm`: the same deck again, with a smaller ERROR and with an unrelated method.
 
 With r the run, s the same method at ERROR/100 and w a method of another family at ERROR/100, both
-with a balance of energy, steps of a quarter of the output step at most and at least ``LEAST_STEPS``
-of them, a channel c is within
+with a balance of energy, steps of a fifth of the output step at most and at least ``LEAST_STEPS``
+of them, which end at different times, a channel c is within
 
     bound_c = SAFETY max_t max(|r - s|, |r - w|, |s - w|) + ROUND_OFF max_t |c|
 
@@ -37,6 +37,9 @@ TIGHTER, TIGHTEST = 100.0, 1e-12
 # multiple of usual output steps meets: what is shorter than a thousandth of a run and has no guard
 # that leads to it (a narrow Gaussian) may be missed by all.
 LARGEST_STEP, LEAST_STEPS = 0.25, 1013
+# Parts of that step for the same method and for another one: no two of the three runs pass
+# something between the same places.
+OWN_PART, OTHER_PART = 0.755, 0.570
 SAFETY, ROUND_OFF = 2.0, 1e-13
 # Round-off: this share of the largest number of a run; sine of theta of no account.
 NEGLIGIBLE, ALIGNED = 1e-12, 1e-6
@@ -62,7 +65,7 @@ def confirmation(
     if len(results.time) > 1:
         longest = LARGEST_STEP * float(np.diff(results.time).max())
         longest = min(longest, float(np.ptp(results.time)) / LEAST_STEPS)
-        options["hmax"] = min(longest, settings.hmax or longest)
+        options["hmax"] = OWN_PART * min(longest, settings.hmax or longest)
     formula, method = method_of(settings.method), settings.method
     family = formula.family
     if formula.steps == FIXED:  # knows no ERROR: its formula with variable steps does
@@ -70,6 +73,8 @@ def confirmation(
         method = next(related, method)
     own = _run(again, integrator=method, formulation=settings.formulation, **options)
     asked = [own]
+    if "hmax" in options:
+        options["hmax"] *= OTHER_PART / OWN_PART
 
     def others() -> Iterator[Results | str]:
         for each in WITNESSES:

@@ -144,8 +144,9 @@ def share_of_zone(P: Problem, tested: bool) -> float:
 
 @native
 def span_of(P: Problem, kind: int) -> float:
-    """Share of a zone that a step may cross; that of a narrow function has to be seen only."""
-    return SHARE_OF_ZONE if kind == NARROW else P.search.span
+    """Share of a zone that a step may cross; more of that of a
+    narrow function, which may be wide for the motion."""
+    return (SHARE_OF_ZONE * P.search.span) ** 0.5 if kind == NARROW else P.search.span
 
 
 @native
