@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from adamslite.elements.bases import data_file
 from adamslite.language.statement import Statement, flag, integer, statement, text, vector, vectors
-from adamslite.symbolic.interpolant import interpolant, piece_numbers
+from adamslite.symbolic.interpolant import corners, interpolant, piece_numbers
 
 if TYPE_CHECKING:
     from adamslite.language.interfaces import DrawnModel
@@ -50,10 +50,11 @@ class Points(NamedTuple):
         return interpolant(np.array(self.x), np.array(self.curves).T, kind, beyond, places)
 
     def numbers(self) -> Interpolant:
-        """The numbers of the pieces between the points."""
+        """The numbers of the straight lines between the corners of the points."""
         import numpy as np
 
-        return piece_numbers(np.array(self.x))
+        x = np.array(self.x)
+        return piece_numbers(x[corners(x, np.array(self.curves).T)])
 
     def strips(self) -> Interpolant:
         """The numbers, from 0, of the strips between the curves: all but the outer two end them."""

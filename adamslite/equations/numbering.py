@@ -12,12 +12,18 @@ from adamslite.equations.engine import ints
 from adamslite.integrators.contract import STATE_SIZE
 from adamslite.kernels.code.workspace import HEAD, PART_SIZE, POINT_SIZE
 from adamslite.model.model import PART
+from adamslite.symbolic.guards import CLOSED, TABLE, TABLES
+from adamslite.symbolic.interpolant import reach, reach_size
 
 if TYPE_CHECKING:
     from adamslite.elements.sensor import Sensor
-    from adamslite.kernels.groups import Kernels
+    from adamslite.kernels.groups import Binding, Kernels
     from adamslite.language.statement import Statement
     from adamslite.model.model import NodeKey
+    from adamslite.symbolic.interpolant import Interpolant
+
+# Share of the range of a table of the state that may be passed unseen, over ERROR^(2/3).
+TABLE_SHARE = 0.01
 
 
 class Numbering:
@@ -88,17 +94,38 @@ class Numbering:
             "zone": [],
         }
         self.first_branch: dict[tuple[str, str], int] = {}
+        self.reaches: dict[tuple[Interpolant, int, bool], int] = {}
+        self.reach_size = 0
         at = self.nw
         for place, found in self.guarded.items():
             for group in self.kernels.groups:
                 self.first_branch[place, group.name] = at + len(found)
                 kinds = group.meta["guards"][place]
-                for statement, _ in group.instances if kinds else ():
-                    found += [(statement, kind) for kind in kinds]
+                for statement, binding in group.instances if kinds else ():
+                    found += [(statement, self._kind(kind, binding)) for kind in kinds]
             at += len(found)
         self.unchanging: list[Sensor] = []
         self.sensors = list(self._sensors())
+        self.reach, self._reach_for = np.zeros(self.reach_size), -1.0
         self.kind = ints([kind for found in self.guarded.values() for _, kind in found])
+
+    def _kind(self, kind: int, binding: Binding) -> int:
+        """How a guard is read; of an argument of a table -1 - k, where its reach begins at k."""
+        if kind < TABLE:
+            return kind
+        table, closed = binding.tables[kind // TABLES], bool(kind & CLOSED)
+        key = table, kind % CLOSED, closed
+        if key not in self.reaches:
+            self.reaches[key] = self.reach_size
+            self.reach_size += reach_size(table, closed)
+        return -1 - self.reaches[key]
+
+    def limit_tables(self, error: float) -> None:
+        """Let steps pass as many pieces of tables of the state as are one smooth curve at ERROR."""
+        if self.reaches and error != self._reach_for:
+            tight = TABLE_SHARE * error ** (2.0 / 3.0)
+            self.reach = np.concatenate([reach(*key, tight) for key in self.reaches])
+            self._reach_for = error
 
     def _sensors(self) -> Iterator[tuple[Sensor, int, int]]:
         """Sensors that act, with the offsets of the branches of their relations, which come before

@@ -44,7 +44,7 @@ MOVED = 1e-9
 
 #: Arrays of ``Problem`` that a part of the system keeps, by the part.
 KEPT_BY = {
-    **dict.fromkeys("scalar kind".split(), "numbering"),
+    **dict.fromkeys("scalar kind reach".split(), "numbering"),
     **dict.fromkeys("copies product turning mixed unit dead held loose".split(), "elimination"),
     **dict.fromkeys("LV LA work pivots pivots_a".split(), "elimination"),
 }
@@ -343,6 +343,7 @@ class System:
             When there is not so much room.
         """
         self.times = np.ascontiguousarray(times, dtype=float)
+        self.numbering.limit_tables(float(self.settings.error))
         block, row = self.block, self.nw + self.sizes.n_out
         block.first, block.row, block.hold = 0, 0, False
         block.room = len(times) if room is None else min(len(times), room)

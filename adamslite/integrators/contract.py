@@ -56,6 +56,7 @@ record          (room + 1, nw + n_out) workspace and outputs at output times
 kind guard      of guards: how they are read; their values, numbered as the workspace
 sensors         of :class:`SensorRow`
 margin zone     how far guards are from changing; where the state is within zones
+reach           how far steps may go in tables (:mod:`adamslite.symbolic.interpolant`)
 stops           times at which guards of the clock change
 paces           of :class:`Pace`
 lane_runs lane  of :class:`LaneRun`: loads that are evaluated by component; numbers of the bodies
@@ -379,6 +380,7 @@ class Problem(Record):
     sensors: Rows[SensorRow]
     margin: Reals
     zone: Reals
+    reach: Reals
     stops: Reals
     paces: Rows[Pace]
     search: Search

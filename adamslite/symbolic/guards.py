@@ -11,7 +11,9 @@ zone        no guard but the place D = (x - x0)/(x1 - x0) of the state within th
             step (STEP, STEP5, HAVSIN, the damping of IMPACT) or of a narrow function (EXP, TANH,
             ATAN, COSH), of which a step of the integrator crosses a share at most; or a *pole*, a
             denominator or the argument of LOG, which a step does not bring close to zero; or a
-            *root*, the argument of SQRT, which does not change its sign within a step
+            *root*, the argument of SQRT, which does not change its sign within a step; or the
+            argument of a table, of which a step passes only pieces that are one smooth curve
+            (:func:`adamslite.symbolic.interpolant.reach`)
 ==========  =====================================================================================
 
 Other guards are evaluated every time: they depend on the state, but the choice is smooth
@@ -33,9 +35,16 @@ from adamslite.symbolic.types import Expr, Leaf, Symbol
 STRICT, WEAK, FLOOR, ZONE = range(4)
 JUMPS = 4
 POLE, ROOT, NARROW = 5, 6, 7
+# How an argument of a table is read: this, the order of the derivative (at most 2), ``CLOSED``
+# where the argument wraps from 1 to 0, and ``TABLES`` times the number of the table.
+TABLE, CLOSED, TABLES = 8, 4, 16
 CLOCK_LEAVES = ("t", "sig")
 FIXED_LEAVES = ("p", "mode", "run", "nan")
 RELATIONS = ("<", ">", "<=", ">=")
+# Faces whose tables of the state bound the step; those of rates have the same arguments.
+WITH_TABLES = ("loads", "equation", "position", "sensor")
+# Tables whose pieces along x are evaluated as they are: positions of x and of the order by it.
+TABLES_OF_X = {"Lookup": (3, 2), "LookupBetween": (3, 1), "LookupBetweenHeld": (4, 1)}
 # What functions of a deck change within: borders of zones of their argument.  EXP is compared with
 # its value at 0; of EXP(-s**n) the sides of the hump lie within ``FLANK`` of s**n, its foot at
 # ``FOOT``.
@@ -57,10 +66,16 @@ class Guards:
     clock: list[Expr] = field(default_factory=list)
     watch: list[Expr] = field(default_factory=list)
     zone: dict[Expr, int] = field(default_factory=dict)
+    tables: dict[tuple[Expr, int], int] = field(default_factory=dict)
     jumps: set[Expr] = field(default_factory=set)
 
     def __bool__(self) -> bool:
-        return bool(self.clock or self.watch or self.zone)
+        return bool(self.clock or self.watch or self.zone or self.tables)
+
+    @property
+    def places(self) -> list[Expr]:
+        """Places within zones and arguments of tables."""
+        return [*self.zone, *(x for x, _ in self.tables)]
 
     @property
     def kinds(self) -> dict[str, list[int]]:
@@ -68,21 +83,25 @@ class Guards:
         return {
             "clock": [_kind(g) for g in self.clock],
             "watch": [_kind(g) + JUMPS * (g in self.jumps) for g in self.watch],
-            "zone": list(self.zone.values()),
+            "zone": [*self.zone.values(), *(k + order for (_, k), order in self.tables.items())],
         }
 
 
 def guards(
-    expressions: list[Expr], leaves: dict[Symbol, Leaf], written: Iterable[Expr] = ()
+    expressions: list[Expr], leaves: dict[Symbol, Leaf], face: str, written: Iterable[Expr] = ()
 ) -> Guards:
-    """The guards in expressions; ``leaves``: what their symbols stand for; ``written``: what
-    operations and functions of the deck have given.
+    """The guards in expressions of a face; ``leaves``: what their symbols stand for; ``written``:
+    what operations and functions of the deck have given.
     """
     found: dict[Expr, int] = {}
     zones: dict[Expr, None] = {}
     for expression in expressions:
         _collect(expression, found, zones)
     result, symbols = Guards(), Derivatives().symbols
+    if face in WITH_TABLES:
+        for (x, kind), order in _arguments(expressions).items():
+            if not _changing(symbols(x), leaves) <= {*CLOCK_LEAVES, "now"}:
+                result.tables[x, kind] = order
 
     def moves(expr: Expr) -> bool:
         kinds = _changing(symbols(expr), leaves)
@@ -127,6 +146,23 @@ def _collect(expression: Expr, found: dict[Expr, int], zones: dict[Expr, None]) 
             if place is not None:
                 zones[place] = None
         pending.extend(reversed(node.args))
+
+
+def _arguments(expressions: Iterable[Expr]) -> dict[tuple[Expr, int], int]:
+    """Arguments x of tables, how they are read, and the least order of the derivatives by them."""
+    found: dict[tuple[Expr, int], int] = {}
+    nodes = ordered(expressions)
+    numbers = {node.args[0] for node in nodes if node.kind == "floor"}
+    for node in nodes:
+        if node.kind not in TABLES_OF_X or node in numbers:
+            continue
+        at, position = TABLES_OF_X[node.kind]
+        x, kind = node.args[at], TABLE + TABLES * int(node.args[0])
+        if x.kind == "-" and x.args[1].kind == "floor" and x.args[1].args[0] is x.args[0]:
+            x, kind = x.args[0], kind + CLOSED
+        order = min(int(node.args[position]), CLOSED - 1)
+        found[x, kind] = min(order, found.get((x, kind), order))
+    return found
 
 
 def _zone(choice: Expr) -> Expr:

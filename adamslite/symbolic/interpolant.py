@@ -27,6 +27,8 @@ from math import factorial
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:  # reading a deck does without numpy
+    from collections.abc import Iterator
+
     import numpy as np
     from numpy.typing import ArrayLike
 
@@ -34,6 +36,11 @@ BEYOND = ("parabola", "tangent", "constant", "piece")
 KINDS = ("linear", "akima", "natural", "not-a-knot", "periodic")
 # Chords bend by less than this share of the sharpest bend: straight to round-off.
 STRAIGHT = 1e-9
+# Chords bend by round-off up to this share of the values over the distance.
+ROUND_OFF = 1e-15
+# What pieces that are one curve may be off a cubic, as a share of their range; what counts as at a
+# knot, as a share of the shorter piece next to it; beyond all places.
+LOOSE, KNOT, FAR = 0.01, 0.1, 1e200
 # A neighbour that counts less than this is left out; rounds at most.
 NEGLIGIBLE, ROUNDS = 1e-18, 50
 
@@ -80,7 +87,23 @@ def interpolant(
     x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
     inner = _inner(x, y, kind)
     ends = [_end(x, y, inner, beyond, last) for last in (False, True)]
+    if kind == "linear":
+        kept = corners(x, y)
+        inner = inner[kept[:-1]]
+        return joined(x[kept], np.concatenate([ends[0][None], inner, ends[1][None]]), places)
     return joined(x, np.concatenate([ends[0][None], inner, ends[1][None]]), places)
+
+
+def corners(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Where straight lines through the points ``y`` (n, m) bend by more than round-off, and both
+    ends, (n,): a step of an integrator may pass the other knots like any place of a line.
+    """
+    import numpy as np
+
+    h = np.diff(x)[:, None]
+    bends, size = np.abs(np.diff(np.diff(y, axis=0) / h, axis=0)), np.abs(y)
+    round_off = ROUND_OFF * (size[:-2] + 2.0 * size[1:-1] + size[2:]) / np.minimum(h[:-1], h[1:])
+    return np.concatenate([[True], (bends > round_off).any(axis=1), [True]])
 
 
 def continued(knots: np.ndarray, pieces: np.ndarray) -> Interpolant:
@@ -119,6 +142,86 @@ def piece_numbers(x: np.ndarray) -> Interpolant:
     pieces[[0, -1], 0, 0] += 0.5
     pieces[1:-1, 0, 1] = 1.0 / np.diff(x)
     return joined(np.asarray(x, dtype=float), pieces)
+
+
+def reach(table: Interpolant, order: int, closed: bool, tight: float) -> np.ndarray:
+    """How far a step of an integrator may go in a table, or in its derivative of an ``order``.
+
+    The pieces between two knots are passed in one step where they are one smooth curve: where they
+    are off the cubic through values and slopes at both knots by at most ``tight`` of the range of
+    the table; or by ``LOOSE`` of their own range, halves of them by as much less as they are of a
+    curve with a fourth derivative, and those halves may be passed.  What is narrower than a step
+    fails one of these tests, whatever its height, while curves with many knots pass them.
+
+    Returns
+    -------
+    n, period, x_1, and for steps upwards, then for those downwards with -x in place of x: n knots
+    at which the next piece begins, of n + 1 pieces the place up to which steps aim, and the place
+    that they may not pass.
+    """
+    import numpy as np
+
+    knots, pieces = table.knots, table.pieces
+    period = knots[-1] - knots[0] if closed else 0.0
+    if closed:
+        knots = np.concatenate([knots[:-1] - period, knots[:-1], knots + period])
+        pieces = np.concatenate([pieces[:1], *[pieces[1:-1]] * 3, pieces[-1:]])
+    n, more = len(knots), 2 ** len(pieces).bit_length()
+    away = (knots[-1] - knots[0]) * np.arange(1, more + 1) / more
+    ends = np.concatenate([knots[0] - away[::-1], knots, knots[-1] + away])
+    own = np.repeat(np.arange(n + 1), [more, *[1] * (n - 1), more])
+    start = ends[:-1] - knots[np.maximum(own - 1, 0)]
+    up, down = np.arange(len(own)) + 1, np.arange(len(own))
+    for length, first in _smooth_runs(pieces[own], start, ends, order, tight):
+        up[first], down[first + length - 1] = first + length, first
+    sides, h = [], np.diff(ends)
+    close = KNOT * np.minimum(h[more - 1 : more + n - 1], h[more : more + n])
+    for sign, bound in ((1.0, up[more - 1 : more + n]), (-1.0, down[more - 1 : more + n])):
+        outside = (bound < more) | (bound > more + n - 1)
+        bound = np.where(outside, more, bound)
+        aim = np.where(outside, sign * FAR, ends[bound])
+        side = [knots - sign * close, aim, aim + sign * KNOT * h[bound - (sign < 0.0)]]
+        sides += side if sign > 0.0 else [-each[::-1] for each in side]
+    return np.concatenate([[n, period, table.knots[0]], *sides])
+
+
+def reach_size(table: Interpolant, closed: bool) -> int:
+    """How many numbers :func:`reach` returns."""
+    return 7 + 6 * (3 * len(table.knots) - 2 if closed else len(table.knots))
+
+
+def _smooth_runs(
+    pieces: np.ndarray, start: np.ndarray, ends: np.ndarray, order: int, tight: float
+) -> Iterator[tuple[int, np.ndarray]]:
+    """Numbers 2, 4, 8 ... of pieces, and the first pieces of those that are one smooth curve."""
+    import numpy as np
+
+    start, h = start[:, None], np.diff(ends)[:, None]
+    a, r, b, s = (_polynomial(pieces, t, k) for t in (start, start + h) for k in (order, order + 1))
+    size = np.ptp(a[start[:, 0] == 0.0], axis=0)
+    a, r, b, s = (each / np.where(size > 0.0, size, np.inf) for each in (a, r, b, s))
+    off, low, high, good, n = 0.0 * a, np.minimum(a, b), np.maximum(a, b), a[:, 0] < FAR, 1
+    while 2 * n <= len(a) and good.any():
+        one, two, left = off[:-n], off[n:], a[: len(off) - n]
+        right, own = b[2 * n - 1 :], ends[: len(left) + 2 * n, None]
+        width, whole = own[n:-n] - own[: -2 * n], own[2 * n :] - own[: -2 * n]
+        x, first, final = width / whole, whole * r[: len(left)], whole * s[2 * n - 1 :]
+        c, d = 3.0 * (right - left) - 2.0 * first - final, 2.0 * (left - right) + first + final
+        value = left + x * (first + x * (c + x * d))
+        slope = (first + x * (2.0 * c + x * 3.0 * d)) / whole
+        before, behind = b[n - 1 : n - 1 + len(left)] - value, a[n : n + len(left)] - value
+        fall = s[n - 1 : n - 1 + len(left)] - slope, r[n : n + len(left)] - slope
+        other = whole - width
+        before = np.maximum(np.abs(before), np.abs(before - fall[0] * width / 3.0))
+        behind = np.maximum(np.abs(behind), np.abs(behind + fall[1] * other / 3.0))
+        off = np.maximum(one + before, two + behind)
+        low, high = np.minimum(low[:-n], low[n:]), np.maximum(high[:-n], high[n:])
+        falls = (one <= np.maximum(tight, 2.0 * x**4 * off)) & (
+            two <= np.maximum(tight, 2.0 * (1.0 - x) ** 4 * off)
+        )
+        smooth = (off <= tight) | (falls & (off <= LOOSE * (high - low)))
+        good, n = good[:-n] & good[n:] & smooth.all(axis=1), 2 * n
+        yield n, np.flatnonzero(good)
 
 
 def _inner(x: np.ndarray, y: np.ndarray, kind: str) -> np.ndarray:

@@ -163,7 +163,7 @@ def what_changes(system: System, error: float) -> str:
     that may jump with the state, unless ERROR is rough, or rises within a zone.
     """
     jumping = [s for s, kind in system.guarded["watch"] if kind >= JUMPS and error < ROUGH]
-    rising = [s for s, kind in system.guarded["zone"] if kind not in (POLE, ROOT)]
+    rising = [s for s, kind in system.guarded["zone"] if 0 <= kind not in (POLE, ROOT)]
     if jumping:
         return (
             f"{jumping[0].label} may jump with the state (IF, SIGN), and equal steps look past that"
@@ -225,6 +225,8 @@ def _picked(system: System, times: np.ndarray, error: float) -> tuple[str, ...]:
         return "HHT" if error >= COARSE and not tied else implicit, f"implicit, because {reason}"
     unfit = tied or what_turns(system) or what_changes(system, 0.0)
     few = meeting and len(system.guarded["watch"]) <= FEW_GUARDS
-    if error >= COARSE and not (unfit or few or system.numbering.sensors):
+    if error >= COARSE and not (
+        unfit or few or system.numbering.sensors or system.numbering.reaches
+    ):
         return "VERLET", f"explicit, because nothing ties the masses together and {reason}"
     return "RKF45", f"explicit, because {reason}", "RADAU" if meeting else ""

@@ -99,9 +99,9 @@ def look_at_guards(P: Problem, row: int) -> None:
 @native
 def branch_side(kind: int, value: float) -> float:
     """The branch of a guard: a sign, or a whole number; before, in or behind a zone; poles have
-    one.
+    one, and arguments of tables.
     """
-    if kind == POLE or kind == ROOT:
+    if kind < 0 or kind == POLE or kind == ROOT:
         return 0.0
     if kind == STRICT or kind == WEAK:
         return 1.0 if value > 0.0 else -1.0

@@ -10,7 +10,8 @@ meet below zero: a distance between markers that pass each other is almost a kin
 Where p fails to predict what is found inside, the step is examined window by window
 (:mod:`adamslite.integrators.events.windows`).
 The place D within the zone of a smooth step follows the same cubic: a step that touches the zone
-0 < D < 1 may change D by a share of it, or it would pass a force without having felt it.
+0 < D < 1 may change D by a share of it, or it would pass a force without having felt it.  So does
+the argument of a table: a step may pass pieces that are one smooth curve, no others.
 Before it is tried, D is continued by its rate at the start.
 A pole, what an expression divides by, may come down to a quarter within a step at most: a step ends
 where an expression that grows beyond all bounds is felt, and passes none.  A root, what SQRT takes,
@@ -21,6 +22,8 @@ special event location problems for ODEs".
 """
 
 from __future__ import annotations
+
+from math import floor
 
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.event_rows import (
@@ -36,7 +39,8 @@ from adamslite.integrators.event_rows import (
     ZONE_LATE,
 )
 from adamslite.integrators.linalg.plan import HUGE
-from adamslite.native.translate import native
+from adamslite.kernels.code.lookup import count_up_to
+from adamslite.native.translate import Reals, native
 
 # Rates are differences over this share of the step.
 LITTLE = 1e-3
@@ -162,6 +166,10 @@ def share_into_zones(P: Problem) -> float:
         if kind == POLE or kind == ROOT:
             least = min(least, share_off_pole(P, kind, a, b, r, s))
             continue
+        if kind < 0:
+            T = P.reach[0 - 1 - kind :]
+            least = min(least, share_into_table(T, a, b, r, s, P.search.span))
+            continue
         span = span_of(P, kind)
         # The cubic stays between these: most steps are outside of most zones.
         low = min(a, b) - DEEPEST * (abs(r) + abs(s))
@@ -210,15 +218,17 @@ def share_below(a: float, b: float, r: float, s: float, end: float, level: float
 
 @native
 def quiet_time(P: Problem) -> float:
-    """Time after the step for which poles and narrow zones stay far away, by their rates and what
-    these changed in the step; 0 with other zones.
+    """Time after the step for which poles, narrow zones and what is not smooth of a table stay far
+    away, by their rates and what these changed in the step; 0 with other zones.
     """
     count, h, time = P.sizes.zones, P.search.size, MOST_QUIET * P.search.size
     for k in range(count):
         kind, b = P.kind[P.sizes.clocks + k], P.zone[END * count + k]
-        if kind <= ZONE:
+        if kind == ZONE:
             return 0.0
         way = LITTLE_NEARER * (max(0.0 - b, b - 1.0) if kind == NARROW else abs(b))
+        if kind < 0:
+            way = LITTLE_NEARER * room_in_table(P.reach[0 - 1 - kind :], b)
         rate = abs(P.zone[ZONE_LATE * count + k])
         bend = abs(P.zone[ZONE_LATE * count + k] - P.zone[ZONE_EARLY * count + k]) / h
         while time > 0.0 and time * (rate + bend * time) > way:
@@ -239,6 +249,10 @@ def expected_share(P: Problem, h: float) -> float:
         kind = P.kind[P.sizes.clocks + P.sizes.watched + k]
         if kind == POLE or kind == ROOT:
             continue
+        if kind < 0:
+            T = P.reach[0 - 1 - kind :]
+            least = min(least, share_into_table(T, a, a + r, r, r, P.search.span))
+            continue
         span = span_of(P, kind)
         if abs(r) > span and min(a, a + r) < 1.0 and max(a, a + r) > 0.0 and abs(r) < HUGE:
             least = min(least, share_into(a, a + r, r, r, span))
@@ -249,15 +263,63 @@ def expected_share(P: Problem, h: float) -> float:
 @native
 def share_into(a: float, b: float, r: float, s: float, span: float) -> float:
     """The share of the step that moves upwards in a zone by no more than ``span``."""
+    level = a + AIM * span
+    if a < 0.0 - 2.0 * BEFORE_ZONE:
+        level = 0.0 - BEFORE_ZONE
+    return share_up_to(a, b, r, s, level, max(0.0, a + span)) if a < 1.0 else NONE
+
+
+@native
+def share_into_table(T: Reals, a: float, b: float, r: float, s: float, span: float) -> float:
+    """The share of the step that passes no more pieces of a table than are one smooth curve;
+    ``T``: as :func:`adamslite.symbolic.interpolant.reach` has it.
+    """
+    n = int(T[0])
+    if not abs(b - a) + abs(r) + abs(s) < HUGE:
+        return NONE
+    away = turns_in_table(T, a)
+    a, b = a - away, b - away
+    up = share_up_table(T[3:], n, a, b, r, s, span)
+    return min(up, share_up_table(T[5 + 3 * n :], n, 0.0 - a, 0.0 - b, 0.0 - r, 0.0 - s, span))
+
+
+@native
+def turns_in_table(T: Reals, x: float) -> float:
+    """Whole periods of a table up to ``x``."""
+    return floor((x - T[2]) / T[1]) * T[1] if T[1] > 0.0 else 0.0
+
+
+@native
+def room_in_table(T: Reals, x: float) -> float:
+    """How far it is from ``x`` to where a step has to end."""
+    n, up, down = int(T[0]), T[3:], T[5 + 3 * int(T[0]) :]
+    x -= turns_in_table(T, x)
+    k, j = count_up_to(up, n, x), count_up_to(down, n, 0.0 - x)
+    return max(0.0, min(up[n + k] - x, down[n + j] + x))
+
+
+@native
+def share_up_table(T: Reals, n: int, a: float, b: float, r: float, s: float, span: float) -> float:
+    """The same for one direction; a method that does not test velocities passes a share of the
+    pieces in a step.
+    """
+    k = count_up_to(T, n, a)
+    level, most = T[n + k], T[2 * n + 1 + k]
+    if span < SHARE_OF_ZONE and k > 0:
+        level = min(level, a + span * (level - T[k - 1]))
+        most = min(most, level)
+    return share_up_to(a, b, r, s, level, most)
+
+
+@native
+def share_up_to(a: float, b: float, r: float, s: float, level: float, most: float) -> float:
+    """The share of the step that moves upwards to ``level``, where it goes beyond ``most``."""
     top, peak = b, 1.0
     highest = lowest(0.0 - a, 0.0 - b, 0.0 - r, 0.0 - s)
     if highest < 1.0:
         inside = cubic(a, b, r, s, highest)
         if inside > top:
             top, peak = inside, highest
-    if not (top > 0.0 and a < 1.0 and top - a > span):
+    if not top > most:
         return NONE
-    level = a + AIM * span
-    if a < 0.0 - 2.0 * BEFORE_ZONE:
-        level = 0.0 - BEFORE_ZONE
     return share_below(0.0 - a, 0.0 - b, 0.0 - r, 0.0 - s, peak, 0.0 - level)

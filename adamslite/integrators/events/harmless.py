@@ -18,6 +18,7 @@ from adamslite.integrators.events.guards import (
     HARMLESS,
     SAME_TIME,
     crossing_share,
+    is_relation,
     keeps_returning,
     margins,
     note_changes,
@@ -32,8 +33,8 @@ from adamslite.integrators.linalg.plan import HUGE, Plan
 from adamslite.integrators.motion_equations import PART, residual, vector_rates
 from adamslite.native.translate import Reals, native, seldom
 
-# So many groups of changes are tried one after another.
-MOST_GROUPS = 5
+# So many groups of changes are tried one after another, and so many pieces of floors.
+MOST_GROUPS, MOST_PIECES = 5, 20
 # Where, on the way back from the end to the first change, branches are compared once more.
 SHORTLY = 0.1
 
@@ -58,10 +59,30 @@ def take_harmless(P: Problem, L: Plan, phases: int, cu: float) -> None:
         turn_back(P)
         turn_over(P, END, share)
         harmless = small_change(P, L, phases, cu)
+    pieces = 0
+    while harmless and lags(P):
+        pieces += 1
+        harmless = pieces < MOST_PIECES and small_change(P, L, phases, cu)
     if harmless and not (exposes(P) or slides(P)) and not matters_before(P, L, phases, cu):
         forget(P)
     else:
         turn_back(P)
+
+
+@native
+def lags(P: Problem) -> bool:
+    """Whether floors that were turned over have not come to the piece of the end yet: they are
+    turned to the next one.  Each piece on the way may be the one that matters.
+    """
+    count, first, found = P.sizes.watched, P.sizes.nw + P.sizes.clocks, False
+    margins(P, INSIDE)
+    for k in range(count):
+        branch, before = P.W[first + k], P.margin[BEFORE * count + k]
+        if branch != before and P.margin[INSIDE * count + k] < 0.0:
+            if not is_relation(P.kind[P.sizes.clocks + k]):
+                P.W[first + k] = branch + (1.0 if P.guard[first + k] > branch else -1.0)
+                found = True
+    return found
 
 
 @native

@@ -84,7 +84,7 @@ def write_kernels(
     shape.n_angles, shape.n_limits = len(scope.angles) + len(scope.kept), len(scope.limits)
     clock: dict[str, list[list[Instruction]]] = {}
     if face != "output":
-        shape.guards = guards(out.expressions, scope.leaves, scope.written)
+        shape.guards = guards(out.expressions, scope.leaves, face, scope.written)
         clock = clock_programs(face, out.expressions, shape.guards.clock, scope.leaves)
     blocks: list[tuple[int, int]] = []
     bodies: list[Body] = []

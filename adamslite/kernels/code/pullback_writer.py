@@ -56,7 +56,7 @@ def write_pullback(shape: Shape, name: str, face: str, n_ints: int) -> str:
     out = shape.outputs(scope)
     shape.n_angles, shape.n_limits = len(scope.angles) + len(scope.kept), len(scope.limits)
     if face != "output":
-        shape.guards = guards(out.expressions, scope.leaves, scope.written)
+        shape.guards = guards(out.expressions, scope.leaves, face, scope.written)
     bodies = [(f"{name}_pullback", HEAD, _writer(shape, scope))]
     bodies[0][2].pullback(out)
     if shape.guards.clock or shape.guards.watch:

@@ -135,7 +135,7 @@ class ResidualWriter:
         guards, first = self.shape.guards, self.shape.branches_at
         for n, guard in enumerate(guards.watch if place else guards.clock):
             self.b.accumulate("F", self.b.int_at(first + place), n, self._guard_value(guard))
-        for n, zone in enumerate(guards.zone if place else ()):
+        for n, zone in enumerate(guards.places if place else ()):
             self.b.accumulate("F", self.b.int_at(first + 2), n, self.value(zone))
 
     def _guard_value(self, guard: Expr) -> Value:

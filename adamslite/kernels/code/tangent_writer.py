@@ -220,7 +220,7 @@ def write_tangents(shape: Shape, name: str, face: str, n_ints: int) -> str:
     out: Outputs = shape.outputs(scope)
     shape.n_angles, shape.n_limits = len(scope.angles) + len(scope.kept), len(scope.limits)
     if face != "output":
-        shape.guards = guards(out.expressions, scope.leaves, scope.written)
+        shape.guards = guards(out.expressions, scope.leaves, face, scope.written)
     writer = TangentWriter(shape, scope)
     writer.residual(out)
     bodies = [(f"{name}_tangent", writer)]
