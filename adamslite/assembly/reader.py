@@ -72,10 +72,12 @@ class NumberReader(NumberScope):
                 return self._call(node)
         raise TypeError(f"not an expression: {node!r}")
 
-    def _call(self, call: Call) -> Number:
+    def _call(self, call: Call) -> Dual:
+        """The value of a function; what its body returns as a plain number has no slope."""
         if call.name in NET:
             raise Unmeasured
-        return FUNCTIONS[call.name].body(self, *self.arguments(call))  # type: ignore[arg-type]
+        found: Number = FUNCTIONS[call.name].body(self, *self.arguments(call))  # type: ignore[arg-type, assignment]
+        return found if isinstance(found, Dual) else Dual(float(found))
 
     def _of_variable(self, key: Key) -> Expr:
         """The value of a VARIABLE; those that it takes are known before, each found once for a

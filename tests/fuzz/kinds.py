@@ -26,6 +26,7 @@ from . import (
     lsp_messages,
     material,
     registered,
+    swapped_expressions,
     text_changes,
 )
 from .calls import call
@@ -151,6 +152,18 @@ def registered_statements(random: Random) -> Case:
     if random.random() < 0.4:
         files[COMMANDS] = encoded(registered.commands(random))
     return Case(files)
+
+
+@at_random
+def swapped(random: Random) -> Case:
+    """Functions of each other in all places; some are solved."""
+    deck = encoded(swapped_expressions.deck(random))
+    return Case({DECK: deck}, _flags(random) if random.random() < 0.15 else ())
+
+
+def check_or_solve(case: Case, folder: Path) -> str:
+    """A deck is checked, or solved where flags are given."""
+    return solve(case, folder) if case.arguments else check(case, folder)
 
 
 # ---- descriptions --------------------------------------------------------------------------------
@@ -286,6 +299,7 @@ KINDS: Mapping[str, Kind] = {
         check,
         150,
     ),
+    "swapped": Kind("functions of each other, of constants and TIME", swapped, check_or_solve, 60),
     "commands": Kind("command files are read", changed_commands, read_commands, 800),
     "fmt": Kind("decks are laid out", changed_deck, fmt, 200),
     "cables": Kind("decks of cables are checked", at_random(kept_files.cabled), check, 30),
