@@ -34,6 +34,8 @@ _HOME = {
     "DeckWarning": "errors",
     "Outcome": "results.outcomes",
     "Results": "results.results",
+    "RunFailed": "errors",
+    "RunWarning": "errors",
     "allow_path": "api.tools",
     "assemble": "model.model",
     "cable": "api.tools",

@@ -1,5 +1,7 @@
 """Errors that are not mistakes of a deck: wrong use of a command, or of a file."""
 
+from typing import Any
+
 from adamslite.notation import shown
 
 
@@ -18,7 +20,14 @@ class NoRoom(UsageError):
 
 
 class RunFailed(RuntimeError):
-    """A run that did not reach the requested state; the message gives the reason."""
+    """A run that did not reach the requested state; the message gives the reason.
+
+    ``results``: the results so far, of a run by ``simulate(..., strict=True)``.
+    """
+
+    def __init__(self, message: str = "", results: Any = None) -> None:
+        super().__init__(message)
+        self.results = results
 
 
 class OutOfMemory(RunFailed):
@@ -27,6 +36,10 @@ class OutOfMemory(RunFailed):
 
 class FormatError(ValueError):
     """A file that is not what it should be; the message says file, line and why."""
+
+
+class RunWarning(RuntimeWarning):
+    """A run that did not reach its end: how it ended, where and why; its results are returned."""
 
 
 class DeckWarning(UserWarning):

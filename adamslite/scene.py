@@ -172,4 +172,5 @@ def run_scene(
         options = {**options, "files": SavedFiles(folder)}
     options = {**options, "journal": journal} if journal else options
     options = {**options, "file": output} if output else options
+    options = {**options, "strict": None}  # who asks for it reports how it ends
     return adamslite.simulate(scene.deck, commands=scene.commands, progress=progress, **options)

@@ -11,6 +11,7 @@ import adamslite
 from adamslite.cli.main import main
 from adamslite.outputs.csv import read
 from adamslite.results.formats import formats
+from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 
 # At rest y = -(1 + M g/K).
@@ -86,6 +87,12 @@ def test_an_equilibrium_stays_where_the_model_changes_before_it_moves(tmp_path: 
     np.testing.assert_allclose(results["REQUEST/1.F2"], [-1.1, -1.1, -6.1, -21.1], rtol=1e-6)
     rows = "STATICS row 1; DYNAMICS row 2 to 3; DYNAMICS row 3 to 4"
     assert results.meta["analyses"] == rows
+
+
+def test_a_run_whose_start_does_not_close_has_no_rows() -> None:
+    open_ = HUNG.replace("REQUEST", "GCON/1, FUNCTION=1\nREQUEST")
+    results = adamslite.simulate(open_, end=1.0, strict=None)
+    assert results.outcome is Outcome.INITIAL_CONDITIONS_FAILED and results.count == 0
 
 
 @pytest.mark.numerical

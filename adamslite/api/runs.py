@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Callable, Iterable
 from contextlib import closing
 from pathlib import Path
@@ -11,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from adamslite.analyses import simulation
 from adamslite.analyses.setup.subject import Subject
 from adamslite.api.inputs import CommandSource, User, inputs
+from adamslite.errors import RunFailed, RunWarning
 from adamslite.language.interfaces import Key
 from adamslite.outputs.saved_files import SavedFiles
 from adamslite.progress import Progress, progress_of
@@ -42,6 +44,7 @@ def simulate(
     memory_limit: int | str | None = None,
     file: str | os.PathLike[str] | None = None,
     journal: Journal | None = None,
+    strict: bool | None = False,
 ) -> Results:
     """Run a deck, as `adamslite solve` does.
 
@@ -87,9 +90,15 @@ def simulate(
 
     file : str or Path
         Where the results will be saved: a run is refused whose results the disk has no room for.
+    strict : bool or None
+        True raises RunFailed for a run that does not reach its end, False warns of it, None does
+        neither.  The end by a SENSOR with HALT is one that the deck requests.
 
     Warns
     -----
+    RunWarning
+        When the run did not reach its end; ``results.success`` is False then, and
+        ``results.message`` gives the reason.
     DeckWarning
         For every warning about a deck or command file that is read here.
 
@@ -98,19 +107,26 @@ def simulate(
     DeckError
         With everything that is wrong in deck and commands.
     RunFailed
-        When there is no memory for as much as the start of the run.
+        With ``strict``, when the run did not reach its end; its ``results`` are those so far.  When
+        there is no memory for as much as the start of the run.
     UsageError
         When nothing says how long to run, or an argument is not what it has to be.
     """
     given = inputs(scene, commands, user)
     kept = SavedFiles(Path(files)) if isinstance(files, str | os.PathLike) else files
     with closing(progress_of(progress)) as shown:
-        return simulation.simulate(
+        results = simulation.simulate(
             given.subject, end, steps, integrator, formulation, error, hmax, given.commands,
             shown, no_reduction, audit, confirm, kept, outputs,
             cpu_limit=cpu_limit, max_steps=max_steps, memory_limit=memory_limit,
             output=Path(file) if file else None, journal=journal,
         )  # fmt: skip
+    if strict is not None and not results.success:
+        how = f"{results.outcome.name}: {results.message}"
+        if strict:
+            raise RunFailed(how, results)
+        warnings.warn(how, RunWarning, stacklevel=2)
+    return results
 
 
 def linearize(

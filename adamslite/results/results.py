@@ -180,6 +180,11 @@ class Results:
         return replace(self, time=np.arange(1.0, self.count + 1.0), channels=channels)
 
     @property
+    def success(self) -> bool:
+        """Whether the run reached its end, or a SENSOR with HALT ended it as the deck requests."""
+        return self.outcome.is_requested
+
+    @property
     def count(self) -> int:
         """How many output times there are."""
         return len(self.time)

@@ -38,8 +38,7 @@ PLACES = (
 )
 VALUES = ("0", "1", "-1", "2", "0.5", "1E-3", "1E30", "TIME", "TIME", "TIME-0.5", "PI")
 TABLES = "AKISPL(TIME,0,9)", "CUBSPL(DX(2,1),0,9)", "CUBSPL(1,0,9,1)", "ARYVAL(9,1)"
-MEASURES = ("DM(2,1)", "DX(2,1)", "DZ(3,2)", "VR(2,1)", "AZ(2,1)", "WZ(2,1)", "VARVAL(1)", "DM(3,1)",
-            *TABLES)  # fmt: skip
+MEASURES = ("DM(2,1)", "DX(2,1)", "DZ(3,2)", "VR(2,1)", "AZ(2,1)", "WZ(2,1)", "VARVAL(1)", *TABLES)
 FEW_ARGUMENTS = 12
 #: Of vectors, and what is the whole of a FUNCTION.
 NOT_INSIDE = ("MAG", "USER", "UV")
@@ -59,8 +58,8 @@ def expression(random: Random, depth: int = 3) -> str:
         return f"IF({a}:{b},{c},{d})"
     plain = random.random() < 0.5
     count = random.randint(*_counts(name))
-    given = [random.choice(VALUES) if plain else expression(random, depth - 1) for _ in range(count)]
-    return f"{name}({','.join(given)})"
+    drawn = (random.choice(VALUES) if plain else expression(random, depth - 1) for _ in "x" * count)
+    return f"{name}({','.join(drawn)})"
 
 
 def _counts(name: str) -> tuple[int, int]:
@@ -77,7 +76,8 @@ def _values() -> list[str]:
     values = [
         name
         for name, each in FUNCTIONS.items()
-        if each.parameters and name not in NOT_INSIDE
+        if each.parameters
+        and name not in NOT_INSIDE
         and {each.parameter(n).statement for n in range(max(1, each.minimum))} == {None}
     ]
     return [*sorted(values), "IF", "IF"]

@@ -74,10 +74,14 @@ def without_accelerations(system: System) -> Outcome:
     return Outcome.SINGULAR_ACCELERATION if cancels else Outcome.UNDETERMINED
 
 
-def initial_conditions(system: System, free: Iterable[Constraint] = ()) -> Unclosed | None:
+def initial_conditions(
+    system: System, free: Iterable[Constraint] = (), redundant: Iterable[int] = ()
+) -> Unclosed | None:
     """Put the nearest consistent positions and velocities into ``system``; None when it worked.
 
-    ``free``: constraints that leave the velocities alone.
+    ``free``: constraints that leave the velocities alone; ``redundant``: rows that are not solved
+    for, as they follow from the others.  A posture that is closed but for round-off turns such a
+    dependence into a nearly singular matrix.
     """
     if system.m == 0:
         return None
@@ -85,28 +89,32 @@ def initial_conditions(system: System, free: Iterable[Constraint] = ()) -> Unclo
     unclosed = None
     for way in ways(system):
         system.q[:], system.u[:], system.base[:] = before
-        unclosed = _positions(system, way) if system.holonomic else None
-        unclosed = unclosed or _velocities(system, free, way)
+        unclosed = _positions(system, way, redundant) if system.holonomic else None
+        unclosed = unclosed or _velocities(system, free, way, redundant)
         if unclosed is None:
             break
     return unclosed
 
 
-def _positions(system: System, way: Way) -> Unclosed | None:
-    rows = np.arange(system.n, system.n + system.holonomic)
+def _positions(system: System, way: Way, redundant: Iterable[int]) -> Unclosed | None:
+    kept = np.setdiff1d(np.arange(system.holonomic), [*redundant])
+    rows = system.n + kept
     size = max(1.0, float(np.abs(system.q).max()))
     g = _residual(system, contract.POSITION_ROWS)[rows]
     for _ in range(MAX_ITERATIONS):
         if not np.isfinite(g).all() or float(np.abs(g).max()) <= CLOSED * size:
             break
-        gradient = way(system, POSITIONS, np.arange(len(rows)))
+        gradient = way(system, POSITIONS, kept)
         if not np.isfinite(gradient.sums).all():
             g = g + 0.0 * gradient.sums
             break
         g, moved = _damped(system, gradient.step(g), g, rows)
         if moved <= STILL * size:
             break
-    return _unclosed(system, g, np.arange(len(g)), OPEN * size, "position")
+    if len(kept) < system.holonomic and np.isfinite(g).all():
+        kept = np.arange(system.holonomic)
+        g = _residual(system, contract.POSITION_ROWS)[system.n + kept]
+    return _unclosed(system, g, kept, OPEN * size, "position")
 
 
 def _damped(
@@ -138,8 +146,11 @@ def largest_turn(system: System, step: np.ndarray) -> float:
     return max(turns, default=0.0)
 
 
-def _velocities(system: System, free: Iterable[Constraint], way: Way) -> Unclosed | None:
-    kept = np.setdiff1d(np.arange(system.m), [row for c in free for row in _rows_of(system, c)])
+def _velocities(
+    system: System, free: Iterable[Constraint], way: Way, redundant: Iterable[int] = ()
+) -> Unclosed | None:
+    without = [*redundant, *(row for c in free for row in _rows_of(system, c))]
+    kept = np.setdiff1d(np.arange(system.m), without)
     rows = velocity_rows(system)[kept]
     if not len(rows):
         return None

@@ -45,7 +45,7 @@ def seen_in_rows(session: Session) -> dict[str, str]:
 def _analyses(session: Session) -> dict[str, str]:
     """The rows of each analysis, where two have rows of their own at one time."""
     history, begun = session.history, session.analyses
-    ends = [count for *_, count in begun[1:]] + [history.count]
+    ends = [*(count for *_, count in begun), history.count][1:]  # none where nothing has begun
     texts, repeated = [], False
     for (kind, start, first), end in zip(begun, ends, strict=True):
         near = next(history.parts(2, first - 1))[0].tolist() if first else []

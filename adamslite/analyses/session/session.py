@@ -58,8 +58,8 @@ if TYPE_CHECKING:
 
 Found = TypeVar("Found")
 DETERMINED = (
-    "the model has no degree of freedom: its postures follow from the MOTIONs at each output time, "
-    "and nothing was integrated"
+    "solved as a kinematic analysis: the model has no degree of freedom, and the speed of a MOTION "
+    "jumps, which no integrator passes"
 )
 # Outcomes after which the rank of the constraints is computed again.
 STALLED = (Outcome.NEWTON_FAILED, Outcome.STEP_TOO_SMALL)
@@ -352,6 +352,7 @@ class Session(SessionState):
     def _determined(self, times: np.ndarray) -> None:
         """A dynamic analysis without degrees of freedom, up to a jump of a displacement."""
         self.kinematic["kinematic"] = DETERMINED
+        self.chosen = choose_method(self.system, times, self.settings)
         times, broken, _ = followed_jumps(self.system, times)
         self._kinematics(times)
         if broken and self.outcome is Outcome.DONE:

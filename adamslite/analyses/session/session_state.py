@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from adamslite.analyses.clock.clock import Clock
-from adamslite.analyses.clock.motion_jumps import without_value
+from adamslite.analyses.clock.motion_jumps import followed_jumps, without_value
 from adamslite.analyses.dynamics.delays import Delays
 from adamslite.analyses.dynamics.dynamic import Settings
 from adamslite.analyses.dynamics.history import History, Piece
@@ -188,14 +188,14 @@ class SessionState:
         return start_of_joints(system, self.progress)
 
     def is_determined(self, times: np.ndarray) -> bool:
-        """Whether a dynamic analysis has nothing to integrate: TIME determines every posture, and
-        no element depends on what was before.
+        """Whether TIME alone determines every posture of a dynamic analysis, no element depends on
+        what was before, and a speed jumps, so that it cannot be integrated.
         """
         system, deck = self.system, self.deck
         if system.dof > 0 or not system.holonomic or len(times) < 2 or self.has_rates():
             return False
         remembers = deck.delays or any(map(deck.of, ("SENSOR", "FRICTION", "GSE")))
-        return not (remembers or self.audited)
+        return not (remembers or self.audited) and bool(followed_jumps(system, times)[-1])
 
     def has_rates(self) -> bool:
         """Whether TIME alone does not determine a posture: states, MOTIONs that give speeds."""

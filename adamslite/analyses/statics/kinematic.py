@@ -16,6 +16,7 @@ from adamslite.analyses.initial.conditions import (
     move,
     without_accelerations,
 )
+from adamslite.analyses.initial.redundancy import badly_chosen, leave_out_redundant
 from adamslite.integrators import contract
 from adamslite.integrators.contract import ACCELERATIONS, RECORD
 from adamslite.results.outcomes import Outcome
@@ -48,7 +49,7 @@ def reached(
         at, unclosed = _followed(system, at, end, least)
         if unclosed:
             return unclosed.outcome, unclosed
-        if system.run(ACCELERATIONS) != contract.DONE:
+        if not _accelerated(system):
             return without_accelerations(system), None
         system.count.steps += 1 if row else 0
         if at == end:
@@ -57,6 +58,13 @@ def reached(
         system.count.records = row
         if over := budget.spent(int(system.count.steps)):
             return over, None
+
+
+def _accelerated(system: System) -> bool:
+    """Solve for accelerations and reactions, without rows that are redundant in this posture."""
+    if badly_chosen(system):
+        leave_out_redundant(system)
+    return bool(system.run(ACCELERATIONS) == contract.DONE)
 
 
 def _followed(
@@ -70,7 +78,8 @@ def _followed(
         at = _next_time(system, start, end)
         predicted = system.q.copy(), system.base.copy()
         unclosed = _solve(system, at)
-        if not at - start > least or not _is_far(system, *predicted):
+        opens = unclosed is not None and len(system.elimination.dropped) > 0
+        if not at - start > least or not (opens or _is_far(system, *predicted)):
             return at, unclosed
         for array, values in before:
             array[:] = values
@@ -109,4 +118,4 @@ def _solve(system: System, time: float) -> Unclosed | None:
     """Positions and velocities at a time; what stayed open, if anything did."""
     system.settings.t = time
     system.report.t = time
-    return initial_conditions(system)
+    return initial_conditions(system, redundant=system.elimination.dropped)
