@@ -94,11 +94,13 @@ def masses(deck: Deck) -> Iterator[Diagnostic]:
             if not _is_held(deck, part):
                 yield diagnose(part, "no-mass", "mass")
         elif part.mass < 0:
-            yield diagnose(part, "no-mass", "mass")
+            yield diagnose(part, "negative-mass", "mass", mass=part.mass)
         elif part.cm is None:
             yield diagnose(part, "no-cm")
     for point in deck.of(POINT):
-        if point.given("mass") and point.mass <= 0:
+        if point.given("mass") and point.mass < 0:
+            yield diagnose(point, "negative-mass", "mass", mass=point.mass)
+        elif point.given("mass") and point.mass == 0:
             yield diagnose(point, "no-mass", "mass")
 
 

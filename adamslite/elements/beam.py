@@ -56,9 +56,18 @@ if TYPE_CHECKING:
     from adamslite.symbolic.types import Expr, Seen
 
 
+# Deflections, as a share of the length, and slopes [rad] that are far outside of the linear theory.
+FAR, STEEP = 0.3, 0.5
+
+
 @statement("BEAM")
 class Beam(Compliance, Statement):
     """A uniform beam from J to I along the x axis of J."""
+
+    beyond = (
+        f"bent by more than {FAR:g} of its length or {STEEP:g} rad, where its linear law means "
+        "nothing; use more elements"
+    )
 
     i: int | str = reference("I", to="MARKER", required=True, help="marker at the far end, +x of J")
     j: int | str = reference("J", to="MARKER", required=True, help="marker at the near end")
@@ -121,6 +130,9 @@ class Beam(Compliance, Statement):
     def loads(self: Seen, scope: Scope) -> list[Load]:
         """The wrench on I and what J gets."""
         found = Compliance.loads(self, scope)
+        _, y, z, _, b, c = displacement(scope, self.i, self.j)
+        scope.limit((FAR * self.length) ** 2 - y**2 - z**2)
+        scope.limit(STEEP**2 - b**2 - c**2)
         if self.formulation != "STRING":
             return found
         stretched, x, slopes = _stretch(self, scope)

@@ -185,6 +185,12 @@ class Joint(Constraint, Statement):
             return {"opposed": "yes" if away else None}
         return {"slid": built_slide(model, self.i, self.j), "turned": found}
 
+    #: Of CONVEL.
+    beyond = (
+        "bent to within 5 degrees of its fold, where its shafts lie on each other: its twist and "
+        "reactions are hardly determined there"
+    )
+
     def constraints(self: Seen, scope: Scope) -> list[Expr]:
         """Rows that vanish: positions first, then directions."""
         i, j = self.i, self.j

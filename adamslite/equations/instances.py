@@ -145,7 +145,7 @@ class Instances:
 
     def out_of_law(self) -> dict[str, str]:
         """Elements that were beyond what their law is meant for: how, and when first."""
-        loads = {group.name for group in self.kernels.groups if group.face == "loads"}
+        loads = {group.name for group in self.kernels.groups if group.face in ("loads", "position")}
         found = {}
         for (name, keyword, key), times in self.times_of_leaving():
             statement = self.model.element(keyword, key)

@@ -26,6 +26,11 @@ NOTES = (
 )  # fmt: skip
 
 
+#: The comment on units of a deck without UNITS.
+AS_GIVEN = "as in the deck"
+NO_UNITS = "the deck has no UNITS: force = mass * acceleration in whatever units its numbers have"
+
+
 def ending(results: Results) -> str:
     """How the run ended, in a line."""
     if results.outcome.is_requested:
@@ -46,4 +51,5 @@ def figures(results: Results) -> list[tuple[str, str]]:
 
 def notes(results: Results) -> list[tuple[str, str]]:
     """What the program did to the model on its own, and what is known of the accuracy."""
-    return [(each, results.meta[each]) for each in NOTES if each in results.meta]
+    found = [(each, results.meta[each]) for each in NOTES if each in results.meta]
+    return [*found, *([("units", NO_UNITS)] if results.meta.get("units") == AS_GIVEN else [])]

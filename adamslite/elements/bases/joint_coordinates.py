@@ -33,6 +33,8 @@ Turn = tuple[Expr, Expr]
 ALIGNED = 1e-14
 # Minus the cosine of the bend from which a constant-velocity joint counts as folded.
 FOLDED = 0.5
+# Cosine of 175 degrees: nearer to its fold a joint hardly holds the twist.
+NEARLY_FOLDED = 0.9962
 
 
 def slide(scope: Scope, i: Frame, j: Frame) -> Expr:
@@ -125,6 +127,7 @@ def equal_speed(scope: Scope, i: Frame, j: Frame, opposed: bool) -> Expr:
     (xi, yi, zi), (xj, yj, zj) = scope.axes(i), scope.axes(j)
     if opposed:
         yi, zi = scale(-1, yi), scale(-1, zi)
+    scope.limit(dot(zi, zj) + NEARLY_FOLDED)
     return piecewise(
         (dot(xi, yj) - dot(yi, xj), dot(zi, zj) > -FOLDED),
         (dot(zi, xj) + dot(xi, zj), dot(xi, xj) > dot(yi, yj)),

@@ -36,7 +36,12 @@ MODEL: dict[str, Message] = {
     "no-mass": Message(
         "{label} has no mass",
         "every body needs MASS= above zero, except a PART that constraints carry",
-        ("PART/4", "POINT_MASS/4, MASS=0", "POINT_MASS/4, MASS=-1"),
+        ("PART/4", "POINT_MASS/4, MASS=0"),
+    ),
+    "negative-mass": Message(
+        "{label} has a negative mass, {mass:g}",
+        "a force along its motion would slow it down: give MASS= above zero",
+        ("POINT_MASS/4, MASS=-1", "PART/4, MASS=-2, CM=4, IP=1,1,1\nMARKER/4, PART=4"),
     ),
     "no-cm": Message(
         "{label} has a mass but no CM",
