@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -16,9 +17,8 @@ HEAD = GROUND + "UNITS/SYSTEM=MKS\n"
 def estimate(results: al.Results, name: str) -> float:
     """The estimated error of a channel; zero where nothing is said of it."""
     note = results.meta.get("accuracy", "")
-    if f" in {name} (" not in note:
-        return 0.0
-    return float(note.split(f" in {name} (")[0].removesuffix(" rad").split()[-1])
+    found = re.search(rf"(\S+)( rad)? in {name}( [xyz])? \(", note)
+    return float(found[1]) if found else 0.0
 
 
 def is_judged(results: al.Results, name: str, off: float, size: float) -> None:

@@ -5,10 +5,10 @@ than ``LOOK`` allows.  What lies between both runs is what the first is off by, 
 amplifies or shifts its errors; a part of the time stands for all of it.  The error of a channel is
 a share of the range that this channel has in the run:
 
-    place of a body           the way of this body, ``LEAST_WAY`` of the longest at least
+    x, y, z of a body         from the least to the largest
     attitude of a part        the largest turn, a radian at most
-    DIFF, VARIABLE            least to largest value
-    markers of an element     way and turn of I seen from J, which is what the element feels
+    DIFF, VARIABLE, REQUEST   the same
+    markers of an element     of x, y, z and turn of I seen from J, which is what it feels
 
 What stays within ERROR (DIFF states: ERROR of their size) or the gaps of constraints is at rest.
 Where there is no second run, the sum of the estimated errors of all steps is a bound.  An
@@ -62,7 +62,6 @@ LIMITED = 0.8
 POWER, LARGEST = 2.5, 10.0
 # Rows and elements that are compared.
 ROWS, ELEMENTS = 2_000, 100
-LEAST_WAY = 1e-3
 # Gaps of constraints that a coordinate has to exceed by so much.
 GAPS = 1e3
 # Of joints, ERRORs that it has to exceed: which of their coordinates are free is not looked at.
@@ -211,15 +210,16 @@ def _channels(
     column = {name: k for k, name in enumerate(run.names)}
     one, other = (Parts(model, column, each) for each in values)
     bodies = [each.label for each in model.moving if f"{each.label}.x" in column]
-    places = {label: (one.of_body(label), other.of_body(label)) for label in bodies}
-    longest = LEAST_WAY * max((_way(each) for each, _ in places.values()), default=0.0)
-    for label, (a, b) in places.items():
-        yield from _apart(label, a, b, max(longest, error), error)
+    for label in bodies:
+        yield from _apart(label, one.of_body(label), other.of_body(label), error, error)
     for name, k in column.items():
-        if name.startswith(("DIFF/", "VARIABLE/")):
-            x, y = (each[:, k] for each in values)
+        kind, _, _ = name.partition("/")
+        if kind in ("DIFF", "VARIABLE", "REQUEST", "MREQUEST"):
+            x, off = values[0][:, k], np.abs(values[0][:, k] - values[1][:, k])
             size = float(np.abs(x).max(initial=0.0))
-            yield Channel("states", name, np.abs(x - y), max(float(np.ptp(x)), error * size))
+            if kind != "DIFF":  # where it jumps, a shift of time is a row that is far off
+                off, size = np.minimum(off, np.append(off[1:], off[-1:])), max(size, 1.0)
+            yield Channel("states", name, off, max(float(np.ptp(x)), error * size))
     for i, j, element in islice(_pairs(model), ELEMENTS):
         seen, other_way = one.seen(i, j), other.seen(i, j)
         if seen is not None and other_way is not None:
@@ -230,22 +230,20 @@ def _channels(
 def _pairs(model: Model) -> Iterator[tuple[Any, Any, Any]]:
     """Markers of two moving bodies, and what acts between them."""
     for each in model.deck.statements:
-        i, j = (getattr(each, end, None) for end in "ij")
+        i, j, follower = (getattr(each, end, None) for end in ("i", "j", "jfloat"))
+        j = j or follower
         if i and j and each.keyword not in INDIFFERENT and model.acts(each):
             a, b = model.marker(i), model.marker(j)
             if a is not None and b is not None and -1 < a.body != b.body > -1:
                 yield i, j, each
 
 
-def _way(frame: Frame) -> float:
-    return float(np.ptp(frame.place, axis=0).max(initial=0.0))
-
-
 def _apart(label: str, one: Frame, other: Frame, way: float, turn: float) -> Iterator[Channel]:
-    """Places and attitudes of a frame in two runs; at rest within ``way`` and ``turn``."""
-    rounding = ROUNDING / FELT * float(np.abs(one.place).max(initial=0.0))
-    off = np.linalg.norm(one.place - other.place, axis=1)
-    yield Channel("places", label, off, max(_way(one), way, rounding))
+    """Coordinates and attitudes of a frame in two runs; at rest within ``way`` and ``turn``."""
+    off = np.abs(one.place - other.place)
+    ranges = np.maximum(np.ptp(one.place, axis=0), ROUNDING / FELT * np.abs(one.place).max(axis=0))
+    for k, axis in enumerate("xyz"):
+        yield Channel("places", f"{label} {axis}", off[:, k], max(float(ranges[k]), way))
     turned, off = _angle(one.axes, one.axes[:1]), _angle(one.axes, other.axes)
     turn = max(turn, float(turned.max(initial=0.0)))
     yield Channel("turns", label, off, min(turn, 1.0), " rad")
