@@ -61,7 +61,7 @@ LIMITED = 0.8
 # An error that grows by a higher power of the time is amplified.
 POWER, LARGEST = 2.5, 10.0
 # Rows and elements that are compared.
-ROWS, ELEMENTS = 2_000, 100
+ROWS, ELEMENTS, MANY = 2_000, 100, 50
 # Gaps of constraints that a coordinate has to exceed by so much.
 GAPS = 1e3
 # Of joints, ERRORs that it has to exceed: which of their coordinates are free is not looked at.
@@ -217,8 +217,9 @@ def _channels(
         if kind in ("DIFF", "VARIABLE", "REQUEST", "MREQUEST"):
             x, off = values[0][:, k], np.abs(values[0][:, k] - values[1][:, k])
             size = float(np.abs(x).max(initial=0.0))
-            if kind != "DIFF":  # where it jumps, a shift of time is a row that is far off
-                off, size = np.minimum(off, np.append(off[1:], off[-1:])), max(size, 1.0)
+            size = size if kind == "DIFF" else max(size, 1.0)
+            if kind != "DIFF" and len(off) > MANY:  # a jump that is shifted is one row far off
+                off = np.minimum(off, np.append(off[1:], off[-1:]))
             yield Channel("states", name, off, max(float(np.ptp(x)), error * size))
     for i, j, element in islice(_pairs(model), ELEMENTS):
         seen, other_way = one.seen(i, j), other.seen(i, j)

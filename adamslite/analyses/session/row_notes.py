@@ -90,7 +90,8 @@ def _without_value(history: History) -> dict[str, str]:
 def _accuracy_note(session: Session) -> str:
     settings, history, counts = session.chosen.settings, session.history, session.counts
     second, factor = None, 0.0
-    if session.again and session.outcome.is_requested and not session.deck.user.used:
+    moves = session.system.dof > 0 or session.system.ns > 0
+    if session.again and moves and session.outcome.is_requested and not session.deck.user.used:
         options, factor = second_run(settings, counts, session.system.nz, history)
         second = session.again(**options) if options else None
         if second and second.outcome not in (session.outcome, Outcome.STEP_LIMIT):
