@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 MOST_NAMED = 5
 #: Numbers of an interrupted run that are looked through: who waits for its end waits for that.
 MOST_LOOKED_AT = 2**24
+#: Evaluations of routines of a user that a second run may repeat.
+ROUTINE_CALLS = 5_000
 LATER = (
     "columns without numbers, cables that push, joints that stand still and the accuracy, "
     "in {rows} rows: what goes on with the run does, when it is done"
@@ -90,12 +92,15 @@ def _without_value(history: History) -> dict[str, str]:
 def _accuracy_note(session: Session) -> str:
     settings, history, counts = session.chosen.settings, session.history, session.counts
     second, factor = None, 0.0
-    moves = session.system.dof > 0 or session.system.ns > 0
-    if session.again and moves and session.outcome.is_requested and not session.deck.user.used:
-        options, factor = second_run(settings, counts, session.system.nz, history)
+    system, routines = session.system, session.deck.user.used
+    if not (system.dof or system.ns):
+        return ""
+    few = not routines or counts.residuals < ROUTINE_CALLS
+    if session.again and session.outcome.is_requested and few:
+        options, factor = second_run(settings, counts, system.nz, history)
         second = session.again(**options) if options else None
         if second and second.outcome not in (session.outcome, Outcome.STEP_LIMIT):
             second = None
-    note = accuracy_notes(session.system, settings, counts, history, second, factor)
+    note = accuracy_notes(system, settings, counts, history, second, factor)
     grown = buckled(session.kernels.model, history)
     return "; ".join(sentence for sentence in (grown, note) if sentence)
