@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import adamslite as al
+from adamslite.sensitivity import measures, study
 
 HEAD = "events\nUNITS/SYSTEM=MKS\nPART/1, GROUND\nMARKER/1, PART=1\nMARKER/9, PART=1\n"
 ALONG_X = "MARKER/8, PART=1, REULER=90D,90D,0\n"
@@ -115,3 +116,63 @@ def test_friction_that_sticks_again(method: str, way: str) -> None:
     found = slopes(STICK, of, [f"FRICTION/1.{name}" for name in by], method, way,
                    end=1.8, error=1e-9)  # fmt: skip
     assert found == pytest.approx(np.array([[-0.1993, 1.2441], [0.0663, 0.3026]]), rel=2e-3)
+
+
+@pytest.mark.numerical
+@pytest.mark.parametrize(("method", "way"), WAYS)
+def test_changes_whose_order_matters_are_told(method: str, way: str) -> None:
+    """A factor of a place and one of the time: 1 N to 15 N by 3 N or by 5 N, so that dv/dT is -12
+    or -4. GSTIFF, which meets both at once, gives their mean, as a central difference is; RADAU
+    meets one after the other, and the difference tells.
+    """
+    text = balls("IF(DX(2)-0.625:1,3,3)*IF(TIME-0.5:1,5,5)", "0", speeds=(1.0, 0.0)) + "END\n"
+    of, by = ["POINT_MASS/2.vx@end"], ["SFORCE/2.FUNCTION[4]"]
+    run = {"end": 0.8, "steps": 20, "error": 1e-6, "integrator": method}
+    found = al.sensitivities(text, by, of, **run) if way == "forward" else al.gradient(
+        text, of, by, **run
+    )  # fmt: skip
+    assert found.at[0] == 0.5
+    assert "more runs" in found.notes["events"]
+    if "order of changes" in found.notes["events"]:
+        assert found.gradient[0, 0] == pytest.approx(-8.0, rel=1e-6)
+    else:
+        assert abs(found.gradient[0, 0] + 8.0) == pytest.approx(4.0, rel=1e-6)
+        assert "a difference of two runs" in found.notes["SFORCE/2.FUNCTION[4]"]
+
+
+@pytest.mark.numerical
+def test_derivatives_that_differences_do_not_confirm(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where events coincide, another derivative than that of runs is told, and its error is."""
+    text = balls("IF(TIME-0.3:0,5,5)", "IF(TIME-0.3:0,7,7)") + "END\n"
+    of, by = ["POINT_MASS/2.vx@end"], ["SFORCE/2.FUNCTION[0]", "SFORCE/3.FUNCTION[0]"]
+    found = al.sensitivities(text, by, of, end=1.0, steps=10, error=1e-6)
+    assert set(found.notes) == {"events"} and found.errors.max() < 1e-3
+    monkeypatch.setattr(study, "slope", lambda *given: 1.1 * measures.slope(*given))
+    found = al.sensitivities(text, by, of, end=1.0, steps=10, error=1e-6)
+    assert "difference of two runs is 0.1" in found.notes["SFORCE/2.FUNCTION[0]"]
+    assert found.errors[0] == pytest.approx(0.1, rel=1e-3) and found.errors[1] < 1e-3
+
+
+TOUCH = """a ball that touches a soft floor twice, with steps of 2e-14 s behind the touch
+PART/1, GROUND
+MARKER/1, PART=1
+ACCGRAV/KGRAV=-9.81
+MARKER/9, PART=1
+POINT_MASS/2, MASS=1.78008, CM=2, QG=0,0,1.236602, VZ=0.26984233
+MARKER/2, POINT_MASS=2
+SFORCE/2, I=2, J=9, ACTIONONLY,
+, FUNCTION=IMPACT(DZ(2),VZ(2),0.1,2645.452,2.0228977,13.695315,0.00055952235)
+END
+"""
+
+
+@pytest.mark.numerical
+def test_velocities_behind_steps_of_round_off() -> None:
+    """RADAU forwards: 0.2 % off at ERROR=1e-9 when places at stages did not count from the start;
+    values of a run at ERROR=1e-11, and the sweep back.
+    """
+    of, by = ["POINT_MASS/2.z@end", "POINT_MASS/2.vz@end"], ["SFORCE/2.FUNCTION[1]"]
+    run = {"end": 1.32472823592192, "steps": 40, "integrator": "RADAU", "error": 1e-9}
+    forwards, back = al.sensitivities(TOUCH, by, of, **run), al.gradient(TOUCH, of, by, **run)
+    assert forwards.gradient == pytest.approx(back.gradient, rel=1e-7)
+    assert forwards.gradient[:, 0] == pytest.approx([1.91941e-5, 2.26381e-4], rel=5e-5)

@@ -141,7 +141,7 @@ def test_a_vibration_that_the_steps_of_the_run_do_not_resolve_is_told():
     """A length sets the rope off; the run itself is quiet, and its steps are long."""
     asked = ["SPRINGDAMPER/1.LENGTH"], ["POINT_MASS/3.x"]
     coarse = al.sensitivities(ROPE, *asked, end=1.0, steps=10, error=1e-4)
-    assert coarse.errors[0] > 0.01
+    assert coarse.errors[0] > study.DOUBTFUL
     assert "coarse" in coarse.notes["SPRINGDAMPER/1.LENGTH"]
     fine = al.sensitivities(SPRING, ["SPRINGDAMPER/1.K"], ["POINT_MASS/2.x"], **RUN)
     assert fine.errors[0] < 1e-7
@@ -151,14 +151,14 @@ def test_a_vibration_that_the_steps_of_the_run_do_not_resolve_is_told():
 @pytest.mark.parametrize("method", ["GSTIFF", "RADAU"])
 @pytest.mark.parametrize("tolerance", [1e-4, 1e-6, 1e-8])
 def test_estimates_are_what_derivatives_are_off_by(method, tolerance):
-    """Within a power of ten or so, of the stiffness and the damping of a vibration."""
+    """By the stiffness and the damping of a vibration: not less, and not beyond all measure."""
     by, run = ["SPRINGDAMPER/1.K", "SPRINGDAMPER/1.C"], {**RUN, "end": 20.0, "error": tolerance}
     found = al.sensitivities(SPRING, by, ["POINT_MASS/2.x"], integrator=method, **run)
     expected = spring_slopes(found.time)
     for estimate, name in zip(found.errors, by, strict=True):
         gap = np.abs(found.curve("POINT_MASS/2.x", name) - expected[name]).max()
         actual = gap / np.abs(expected[name]).max()
-        assert 0.1 * actual <= estimate <= 30.0 * actual
+        assert actual <= estimate <= 400.0 * actual + 100.0 * tolerance
 
 
 @pytest.mark.parametrize("method", ["GSTIFF", "RADAU"])

@@ -1,13 +1,9 @@
 """Derivatives of curves by the numbers that are fitted.
 
 Those of :mod:`adamslite.sensitivity`, along the steps of a run, are taken of each number for which
-differences confirm them at the start.  The others are central differences::
-
-    dy/dp = (y(p + h) - y(p - h)) / 2 h,     h = r scale(p),     r = ERROR^(1/3)
-
-The rounding of an integration, some ERROR of the size of y, is divided by h, and the third
-derivative times h^2/6 is left out: r balances both.  Beside a bound, or where the run on one side
-fails, the difference is one-sided.
+differences confirm them at the start.  The others are central differences with the steps of
+:mod:`adamslite.sensitivity.measures`.  Beside a bound, or where the run on one side fails, the
+difference is one-sided.
 """
 
 from __future__ import annotations
@@ -23,14 +19,10 @@ from adamslite.fitting.curves import Failed, Runs, Spent, error_of
 from adamslite.fitting.measured import Measured, amplitudes
 from adamslite.language.diagnostics import DeckError
 from adamslite.results.comparison import Mismatch, sampler
+from adamslite.sensitivity.measures import CONFIRMED, DOUBT, relative_step
 from adamslite.sensitivity.study import sensitivities
 
-#: Relative steps of differences are never smaller or larger.
-SMALLEST_STEP, LARGEST_STEP = 1e-4, 2e-2
 EXACT, DIFFERENCES = "sensitivities of runs", "central differences of runs"
-#: Sensitivities are taken where differences of runs are so close to them, as a share of their size,
-#: or no further than so many times what differences with another step are from each other.
-CONFIRMED, DOUBT = 0.01, 3.0
 
 
 class Curves(NamedTuple):
@@ -97,7 +89,7 @@ class Derivatives:
         try:
             found = sensitivities(
                 runs.deck_with(values), by, measured.channels, runs.commands, None,
-                **runs.lent(options),
+                False, **runs.lent(options),
             )  # fmt: skip
         except (DeckError, RunFailed, ArithmeticError) as fault:
             runs.need_left()
@@ -169,8 +161,3 @@ class Derivatives:
             sides.append((middle, own))
         (above, upper), (below, lower) = sides
         return (upper - lower) / (above - below)
-
-
-def relative_step(error: float) -> float:
-    """Step of differences as a share of a number, for runs of some ERROR."""
-    return min(max(error ** (1.0 / 3.0), SMALLEST_STEP), LARGEST_STEP)

@@ -26,8 +26,8 @@ from adamslite.sensitivity.adjoint_stages import StageSweep
 from adamslite.sensitivity.adjoint_sweep import Sweep
 from adamslite.sensitivity.measures import asked
 from adamslite.sensitivity.record import Sensitivities
-from adamslite.sensitivity.study import SENSED, Study
-from adamslite.sensitivity.taped import Taped
+from adamslite.sensitivity.study import SENSED, Study, noted, recorded
+from adamslite.sensitivity.taped import Along, Taped, followed
 
 if TYPE_CHECKING:
     from adamslite.analyses.setup.run_options import Budget
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from adamslite.equations.system import System
     from adamslite.reading.numbers import Named
 
-ALL = "all"
+ALL, RUN = "all", "accuracy"
 ONLY = "gradients go back along the steps of {known}; {method} is followed forwards alone"
 #: What goes back along the steps of a method.
 SWEEPS: dict[str, type[Sweep]] = {"GSTIFF": Sweep, "RADAU": StageSweep}
@@ -74,6 +74,8 @@ def _swept(study: Study, of: Iterable[str], by: Iterable[str] | str) -> Sensitiv
             raise UsageError(ONLY.format(known=" and ".join(SWEEPS), method=method))
         begun = (not (session.assembled or session.speeds), bool(session.history.stretches))
         made.update(_gradients(chain, system, SWEEPS[method], of, named, begun, study.budget))
+        if not made["stopped"]:
+            made["along"] = _estimated(study, system, method, made["gradient"], named, begun[0])
         return np.zeros(0)
 
     session.follow = follow
@@ -86,12 +88,37 @@ def _swept(study: Study, of: Iterable[str], by: Iterable[str] | str) -> Sensitiv
         time=made["time"], names=made["names"], values=made["columns"],
         meta={"deck": study.deck.title}, outcome=session.outcome, message="", summary={},
     )  # fmt: skip
-    return Sensitivities(
+    along: Along | None = made.get("along")
+    errors = along.errors if along else np.array([np.nan])
+    found = Sensitivities(
         tuple(n.name for n in named), np.array([n.value for n in named]), results,
         np.zeros((len(named), 0, 0)), made["measures"], made["values"], made["gradient"],
-        session.notes,
-        stopped=made["stopped"],
+        session.notes | noted(along, {RUN: errors[0]}), np.repeat(errors, len(named)),
+        made["stopped"],
     )  # fmt: skip
+    several, coupled = made["several"], along.coupled if along else 0
+    return study.compared(found, named, session, several, coupled)
+
+
+def _estimated(
+    study: Study,
+    system: System,
+    method: str,
+    gradient: np.ndarray,
+    named: list[Named],
+    as_drawn: bool,
+) -> Along | None:
+    """The number with the largest effect followed forwards, for its estimate of errors; None where
+    the CPU is spent or rows of constraints are redundant, along which that is not done in space.
+    """
+    if system.elimination.dead.size:
+        return None
+    effects = np.abs(gradient * [each.value for each in named]).max(axis=0)
+    most = [named[int(np.nanargmax(effects))]]
+    try:
+        return followed(system, method, study.directions(most)(system, as_drawn), study.budget)
+    except Overspent:
+        return None
 
 
 def _ready(study: Study, chain: Chain, named: list[Named]) -> tuple[Chain, list[Named]]:
@@ -118,13 +145,12 @@ def _gradients(
     """The measures of a run that has just been made, and their derivatives; ``begun``: whether it
     starts as it is drawn, and whether another analysis came before.
     """
-    size, time = system.nw + system.sizes.n_out, system.times.copy()
-    record = system.record[: len(time) * size].reshape(len(time), size).copy()
+    time, record = system.times.copy(), recorded(system).copy()
     names, values = columns(system, record)
     measures, kept = asked(of, names)
     if not measures:
         raise UsageError(MEASURE)
-    places, found, numbers = Columns(system), [], []
+    places, found, numbers, several = Columns(system), [], [], 0
     for each in measures:
         at = names.index(each.channel)
         weights = weights_of(each, time, values[:, at])
@@ -133,7 +159,9 @@ def _gradients(
         for row, seed in seeds.items():
             places.weigh(seed, each.channel, float(weights[row]))
         try:
-            found.append(interruptible(partial(sweep(system).back, seeds), over=budget.over))
+            back = sweep(system)
+            found.append(interruptible(partial(back.back, seeds), over=budget.over))
+            several = max(several, back.several)
         except Overspent:
             break
     gradient = np.full((len(measures), len(named)), np.nan)
@@ -145,6 +173,6 @@ def _gradients(
         "time": time, "names": tuple(names[k] for k in kept),
         "columns": np.ascontiguousarray(values[:, kept]),
         "measures": tuple(map(str, measures)), "values": np.array(numbers),
-        "gradient": gradient,
+        "gradient": gradient, "several": several,
         "stopped": Outcome.CPU_LIMIT.sentence if len(found) < len(measures) else "",
     }  # fmt: skip

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from adamslite.equations.result_columns import ALIGNED, OF_PART, OF_POINT, column_names
+from adamslite.equations.result_columns import ALIGNED, OF_PART, OF_POINT, column_names, columns
 from adamslite.equations.system import System
 from adamslite.errors import UsageError
 from adamslite.kernels.code.workspace import (
@@ -29,6 +29,8 @@ PLACES = {
     **dict(zip(".alx .aly .alz".split(), range(ALPHA, ALPHA + 3), strict=True)),
 }
 ANGLES = (".psi", ".theta", ".phi")
+# Turns of a part by which its angles are differentiated.
+TURN = 1e-5
 
 
 def trapezoids(time: np.ndarray) -> np.ndarray:
@@ -156,3 +158,32 @@ class Columns:
         c, s, cot = np.cos(psi), np.sin(psi), np.cos(theta) / np.sin(theta)
         rows = ((-s * cot, c * cot, 1.0), (c, s, 0.0), (s / np.sin(theta), -c / np.sin(theta), 0.0))
         return np.array(rows[which])
+
+
+def column_slopes(system: System, record: np.ndarray, slopes: np.ndarray) -> np.ndarray:
+    """Derivatives of the columns (nt, nc) from those of the record: all but angles are linear.
+
+    A part turns by ``TURN`` to both sides, however little its number turns it: d(angle) is the
+    difference of the ends, times |dR| / (2 TURN).  A division by |dR| alone stays finite down to
+    the least number, and a part that hardly turns loses no digits beside one that does.
+    """
+    names, found = columns(system, slopes)
+    at = {name: k for k, name in enumerate(names)}
+    found, turned = found.copy(), np.zeros_like(slopes)
+    angles: list[int] = []
+    sizes: list[np.ndarray] = []
+    for b, body in enumerate(system.model.bodies):
+        own = [at[name] for each in ANGLES if (name := body.statement.label + each) in at]
+        if not own:
+            continue
+        place = slice((o := system.w_at["BODY", b] + ATTITUDE), o + 9)
+        slope = slopes[:, place]
+        size = np.abs(slope).max(axis=1, keepdims=True)
+        turned[:, place] = TURN * np.divide(slope, size, out=np.zeros_like(slope), where=size > 0.0)
+        angles, sizes = angles + own, [*sizes, *[size] * len(own)]
+    if angles:
+        ends = [columns(system, record + sign * turned)[1][:, angles] for sign in (1.0, -1.0)]
+        gap = ends[0] - ends[1]
+        rest = (gap - 2.0 * np.pi * np.round(gap / (2.0 * np.pi))) / (2.0 * TURN)
+        found[:, angles] = rest * np.concatenate(sizes, axis=1)
+    return found

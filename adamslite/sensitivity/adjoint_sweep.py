@@ -63,7 +63,7 @@ GRAZES = "an event at t = {t:.6g} only just happens: its time has no derivative"
 # A guard that changes by less than this share of its terms changes by round-off.
 GRAZING = 1e-9
 # As in :mod:`adamslite.sensitivity.start`.
-NEAR, SAME = 0.01, 1e-9
+NEAR, SAME, COUPLED, TOGETHER = 0.01, 1e-9, 1e-6, 1e-6
 
 
 @dataclass
@@ -82,7 +82,8 @@ class Sweep(Taken):
     def __init__(self, system: System) -> None:
         super().__init__(system)
         self.bar = np.zeros((ROWS, self.w))
-        self.guards = system.sizes.clocks + system.sizes.watched
+        self.guards, self.several = system.sizes.clocks + system.sizes.watched, 0
+        self.later: tuple[float, np.ndarray, bool] | None = None
 
     def back(self, seeds: Mapping[int, Seed]) -> Derivatives:
         """``seeds``: weights of what was written at output times, by their numbers."""
@@ -281,16 +282,34 @@ class Sweep(Taken):
         leaders = [g for g in moving if abs(value[g]) <= NEAR * row.h * abs(slopes[g][0])] or moving
         surfaces, jumps = _surfaces(slopes, leaders), [rates - after]
         if len(surfaces) > 1:
+            self.several += 1
             follow = [g for g in changed if g not in leaders]
             jumps = [0.5 * (rates - self._rates_with(before, each, new, follow)
                             + self._rates_with(behind, each, old, follow) - after)
                      for each in surfaces]  # fmt: skip
         self.system.W[:] = here
         for (guard, *_), jump in zip(surfaces, jumps, strict=False):
+            size = max(np.abs(rates).max(), np.abs(after).max())
+            met = row.t, slopes[guard][1] / slopes[guard][0], np.abs(jump).max() > COUPLED * size
+            self.several += int(self._coincides(*met))
+            self.later = met
             if weight := float(self.bar[0, self.n :] @ jump):
                 sl, _ = self.weights.of_guard(guard, -weight / slopes[guard][0])
                 found += self._accelerations(sl)
         self.bar[0] += found
+
+    def _coincides(self, t: float, slopes: np.ndarray, counts: bool) -> bool:
+        """Whether the event that came later is at this time, a number moves both apart, and both
+        change accelerations.
+        """
+        settings = self.system.settings
+        within = min(TOGETHER, settings.error) * settings.t_end
+        if not self.later or self.later[0] - t > within:
+            return False
+        if not (counts and self.later[2]):
+            return False
+        apart, size = (np.abs(each).max() for each in (slopes - self.later[1], slopes))
+        return bool(apart > COUPLED * size)
 
     def _rates_with(
         self, W: np.ndarray, guards: Iterable[int] = (), branches: Any = (), free: Any = ()
@@ -329,7 +348,9 @@ class Sweep(Taken):
         """States that count from another value behind row ``k`` than before it began at zero."""
         at = self.weights.rate - 1 + STATE_ORIGIN
         before, behind = self._workspace(k - 1), self._workspace(k)
-        self.bar[:, 2 * self.n :][:, before[at] != behind[at]] = 0.0
+        changed = before[at] != behind[at]
+        self.bar[:, 2 * self.n :][:, changed] = 0.0
+        self.several += int(changed.any())
 
     def _project(self, y: np.ndarray) -> None:
         """Velocities, then positions at the start were moved onto the constraints."""

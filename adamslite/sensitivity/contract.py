@@ -73,6 +73,8 @@ class Forward(Record):
     jump                 (n + ns,) accelerations and rates of states behind an event
     speed, kind          of each guard: by the time, whether it leads an event or follows
     shift                (np, guards) derivatives of the times at which guards change
+    last, last_t         (np + 1,) derivatives of the time of the last event, its largest jump; that
+                         time
     several, coupled     events at one time that a number moves apart, and states that are reset;
                          events whose order matters
     record               (np, nt, nw + n_out) derivatives of the record
@@ -110,6 +112,8 @@ class Forward(Record):
     speed: Reals
     kind: Reals
     shift: Reals
+    last: Reals
+    last_t: float
     several: int
     coupled: int
     record: Reals

@@ -2,12 +2,20 @@
 
 A measure is what sweeps call one (:mod:`adamslite.sweeps.measures`), ``max REQUEST/1.F2``, or the
 value at a time, ``PART/2.x@end``, ``PART/2.x@0.5``.
+
+Derivatives are compared with central differences of runs by
+
+    |dy/dp - (y(p + h) - y(p - h))/2h|,     h = r scale(p),     r = ERROR^(1/3)
+
+The rounding of an integration, some ERROR of the size of y, is divided by h, and the third
+derivative times h^2/6 is left out: r balances both.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -15,7 +23,22 @@ from adamslite.errors import UsageError
 from adamslite.results.selection import selected
 from adamslite.sweeps.measures import MEASURES, Measure, parsed
 
+if TYPE_CHECKING:
+    from adamslite.sensitivity.record import Sensitivities
+
 AT, END, START = "@", "end", "start"
+#: Relative steps of differences are never smaller or larger.
+SMALLEST_STEP, LARGEST_STEP = 1e-4, 2e-2
+#: Derivatives are taken where differences of runs are so close to them, as a share of their size,
+#: or no further than so many times what differences with another step are from each other.
+CONFIRMED, DOUBT = 0.01, 3.0
+#: Smaller values of a measure are round-off.
+LEAST = 1e-6
+#: More numbers than this are moved together.
+MOST_ALONE = 4
+APART = (
+    "a difference of two runs is {share:.2g} of it away: do not rely on it, or use a smaller ERROR"
+)
 Rule = Callable[[np.ndarray, np.ndarray, np.ndarray], float]
 
 
@@ -111,3 +134,71 @@ def _when(text: str, when: str) -> str:
         raise UsageError(
             f"{text}: behind {AT} stands end, start or a time, as PART/2.x{AT}end"
         ) from None
+
+
+def relative_step(error: float) -> float:
+    """Step of differences as a share of a number, for runs of some ERROR."""
+    return min(max(error ** (1.0 / 3.0), SMALLEST_STEP), LARGEST_STEP)
+
+
+Columns = tuple[np.ndarray, Sequence[str], np.ndarray]
+Run = Callable[[Mapping[str, float]], Columns]
+
+
+def compared(
+    found: Sensitivities, run: Run, sizes: Mapping[str, float], error: float
+) -> tuple[Sensitivities, int]:
+    """Derivatives whose errors and notes tell how far differences of runs are from them; and how
+    many runs there were.
+
+    Parameters
+    ----------
+    run : callable
+        Output times, names and values (nt, nc) of a run with other numbers, to within ``error``.
+    sizes : mapping
+        How large each number is.
+    """
+    lots = [[j] for j in range(len(found.by))]
+    lots = lots if len(lots) <= MOST_ALONE else [[*range(len(lots))]]
+    slopes = found.gradient.T if found.measures else found.curves
+    notes, errors, count = dict(found.notes), found.errors.copy(), 0
+    h = relative_step(error) * np.array([sizes[name] for name in found.by])
+    h *= np.where(slopes.reshape(len(h), -1)[:, 0] < 0.0, -1.0, 1.0)
+
+    def difference(lot: list[int], wider: float) -> np.ndarray:
+        ends = [{found.by[j]: found.at[j] + side * h[j] for j in lot} for side in (wider, -wider)]
+        above, below = (_quantities(found, *run(each)) for each in ends)
+        return (above - below) / (2.0 * wider)
+
+    own = _quantities(found, found.time, found.results.names, found.results.values)
+    least = np.maximum(_length(own), LEAST)
+    for lot in lots:
+        expected, near = np.tensordot(h[lot], slopes[lot], 1), difference(lot, 1.0)
+        off, size, noise = _length(expected - near), _length(near), error * least
+        count += 2
+        if (off > CONFIRMED * size + noise).any():
+            noise += DOUBT * _length(near - difference(lot, 2.0))
+            count += 2
+        wrong = off > CONFIRMED * size + noise
+        if wrong.any():
+            share = float((off[wrong] / np.maximum(size[wrong], noise[wrong])).max())
+            errors[lot] = np.fmax(errors[lot], share)
+            notes |= {found.by[j]: APART.format(share=share) for j in lot}
+    return replace(found, notes=notes, errors=errors), count
+
+
+def _length(quantities: np.ndarray) -> np.ndarray:
+    """Of each measure, or of each column over the times."""
+    return np.asarray(np.linalg.norm(np.atleast_2d(quantities), axis=0))
+
+
+def _quantities(
+    found: Sensitivities, time: np.ndarray, names: Sequence[str], values: np.ndarray
+) -> np.ndarray:
+    """The measures (nm,), or without any the columns (nt, nc), of a run."""
+    if not found.measures:
+        return values[:, [names.index(name) for name in found.results.names]]
+    return np.array([
+        each.of(time, values[:, names.index(each.channel)])
+        for each in asked(found.measures, names)[0]
+    ])  # fmt: skip

@@ -79,9 +79,9 @@ def by_stages(P: Problem, L: Plan, D: Tangents, S: Forward) -> int:
         lay_stages(P, S, here)
         if not by_matrices(P, L, D, S, here[TAPE_STEP]):
             return SINGULAR_MASS
+        note_stage_errors(P, L, D, S, before, ROWS * S.width, z_width(P), here[TAPE_STEP])
         if not record(P, L, D, S, here):
             return SINGULAR_MASS
-        note_stage_errors(P, L, D, S, before, ROWS * S.width, z_width(P), here[TAPE_STEP])
         for number in range(D.count):
             H = S.history[number * S.room :]
             copy(H[ROWS * S.width + 3 * z_width(P) :], H, S.width)
@@ -118,7 +118,7 @@ def restore_history(P: Problem, kept: Reals, h: float) -> None:
     T, w, Y = P.tape, 2 * P.sizes.n + P.sizes.ns, P.history
     copy(Y, kept, T.kept)
     copy(Y[T.further :], kept[T.kept :], T.more)
-    rate_rows(P, Y, w, RATES, 0, w, h)
+    rate_rows(P, Y, w, RATES, 0, w, h, False)
 
 
 @native
@@ -197,7 +197,7 @@ def is_little(P: Problem, H: Reals, h: float, reach: float, left: float, moved: 
     speed = scale(P, H, P.sizes.n, 2 * P.sizes.n)
     if left > max(share * min(reach, h * speed), least):
         return False
-    return moved <= max(share * speed, least / h)
+    return moved <= max(share * speed, LEAST * speed)
 
 
 @native
@@ -212,8 +212,9 @@ def left_of(size: float, last: float) -> float:
 @native
 def guess(P: Problem, S: Forward, H: Reals, h: float, again: bool) -> None:
     """Stages on the polynomial of the last step, else where it ended, and z as it was; what it was
-    is lost where the step is done ``again``.
+    is lost where the step is done ``again``.  Places, turns and states count from the start.
     """
+    n, w = P.sizes.n, S.width
     w = S.width
     if again:
         clear(H[ROWS * w :], 3 * z_width(P))
@@ -226,6 +227,18 @@ def guess(P: Problem, S: Forward, H: Reals, h: float, again: bool) -> None:
     else:
         for stage in range(3):
             copy(H[(1 + stage) * w :], H, w)
+    for stage in range(3):
+        y = H[(1 + stage) * w :]
+        for i in range(w):
+            y[i] -= 0.0 if n <= i and i < 2 * n else H[i]
+
+
+@native
+def put_values(P: Problem, S: Forward, H: Reals, stage: int, y: Reals) -> None:
+    """Sensitivities at a stage, whose places, turns and states count from the start."""
+    n, w = P.sizes.n, S.width
+    for i in range(w):
+        y[i] = H[(1 + stage) * w + i] + (0.0 if n <= i and i < 2 * n else H[i])
 
 
 @native
@@ -258,13 +271,17 @@ def between(P: Problem, start: Reals, H: Reals, w: int, x: float, y: Reals) -> N
 
 
 @native
-def rate_rows(P: Problem, H: Reals, w: int, at: int, first: int, last: int, h: float) -> None:
-    """y' of the stages, of entries ``first`` .. ``last``, into the rows from ``at`` + 1 on."""
+def rate_rows(
+    P: Problem, H: Reals, w: int, at: int, first: int, last: int, h: float, counted: bool
+) -> None:
+    """y' of the stages, of entries ``first`` .. ``last``, into the rows from ``at`` + 1 on;
+    ``counted``: from the start.
+    """
     for stage in range(3):
         row, d = INVERSE + 3 * stage, H[(1 + at + stage) * w :]
         a, b, c = P.tableau[row] / h, P.tableau[row + 1] / h, P.tableau[row + 2] / h
         for i in range(first, last):
-            s = H[i]
+            s = 0.0 if counted else H[i]
             d[i] = a * (H[w + i] - s) + b * (H[2 * w + i] - s) + c * (H[3 * w + i] - s)
 
 
@@ -272,18 +289,19 @@ def rate_rows(P: Problem, H: Reals, w: int, at: int, first: int, last: int, h: f
 def motion(P: Problem, S: Forward, H: Reals, h: float) -> None:
     """Rates and velocities of the stages from places, turns and states."""
     n, w, size = P.sizes.n, S.width, P.W.size
-    rate_rows(P, H, w, RATE_ROWS, 0, n, h)
-    rate_rows(P, H, w, RATE_ROWS, 2 * n, w, h)
+    rate_rows(P, H, w, RATE_ROWS, 0, n, h, True)
+    rate_rows(P, H, w, RATE_ROWS, 2 * n, w, h, True)
     for stage in range(3):
         y, d = H[(1 + stage) * w :], H[(1 + RATE_ROWS + stage) * w :]
         copy(P.W, S.stages[stage * size :], size)
-        spun(P, y, d, -1.0, y[n:])
+        put_values(P, S, H, stage, S.y[3 * w :])
+        spun(P, S.y[3 * w :], d, -1.0, y[n:])
         if is_stabilised(P):
             z = H[ROWS * w + stage * z_width(P) + P.sizes.m + P.sizes.nv + P.sizes.ns :]
             project_on_constraints(P, z, P.F)
             for i in range(n):
                 y[n + i] += P.F[i]
-    rate_rows(P, H, w, RATE_ROWS, n, 2 * n, h)
+    rate_rows(P, H, w, RATE_ROWS, n, 2 * n, h, False)
 
 
 @native
@@ -291,7 +309,8 @@ def stage_tangents(P: Problem, D: Tangents, S: Forward, number: int, H: Reals) -
     """What the equations at the stages are off by, where increments are solved for."""
     n, w, nz, size, at = P.sizes.n, S.width, P.sizes.nz, P.W.size, stage_z(P, Z_ROWS)
     for stage in range(3):
-        y, d = H[(1 + stage) * w :], H[(1 + RATE_ROWS + stage) * w :]
+        y, d = S.y[3 * w :], H[(1 + RATE_ROWS + stage) * w :]
+        put_values(P, S, H, stage, y)
         copy(P.W, S.stages[stage * size :], size)
         z = H[ROWS * w + stage * z_width(P) :]
         put_direction(P, D, y, d[n:], z, d[2 * n :], 0.0)

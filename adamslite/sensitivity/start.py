@@ -43,6 +43,8 @@ LEADER, FOLLOWER, MEMBER = 1.0, 2.0, 3.0
 # Times that differ by less than this share are one; jumps that differ by more than that one hang on
 # the order of changes.
 SAME, COUPLED = 1e-9, 1e-6
+# Of events within this share of the time, or ERROR, the order is chance.
+TOGETHER = 1e-6
 
 
 @native
@@ -117,7 +119,27 @@ def jump(
                 y, shift = S.history[number * S.room :], S.shift[number * count + k]
                 for i in range(n, S.width):
                     y[i] += S.state[i] * shift
+            note_coincidence(P, D, S, before[0], k)
     reset_states(P, D, S, before, behind)
+
+
+@native
+def note_coincidence(P: Problem, D: Tangents, S: Forward, t: float, guard: int) -> None:
+    """Count an event at the time of the last one that a number moves away from it, where both
+    change accelerations.
+    """
+    n, count, jump, size, apart = P.sizes.n, P.sizes.clocks + P.sizes.watched, 0.0, 0.0, False
+    for i in range(n, S.width):
+        jump = max(jump, abs(S.state[i]))
+        size = max(size, max(abs(S.rate[i]), abs(S.rate[i] - S.state[i])))
+    counts = min(jump, S.last[D.count]) > COUPLED * size
+    for number in range(D.count):
+        shift, last = S.shift[number * count + guard], S.last[number]
+        apart = apart or abs(shift - last) > COUPLED * max(abs(shift), abs(last))
+        S.last[number] = shift
+    together = t - S.last_t <= min(TOGETHER, P.settings.error) * P.settings.t_end
+    S.several += 1 if counts and apart and together else 0
+    S.last_t, S.last[D.count] = t, jump
 
 
 @native

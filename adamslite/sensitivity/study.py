@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -14,20 +15,18 @@ from adamslite.analyses.setup.subject import deck_of, kernels_of, prepared_for
 from adamslite.analyses.simulation import explained
 from adamslite.equations.result_columns import columns
 from adamslite.errors import RunFailed, UsageError
-from adamslite.kernels.code.workspace import ATTITUDE
 from adamslite.kernels.groups import Kernels
 from adamslite.language.diagnostics import DeckError
-from adamslite.model.model import PART
 from adamslite.model.reduction import MERGED
 from adamslite.native.worker import Overspent
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
-from adamslite.sensitivity.adjoint_columns import ANGLES
+from adamslite.sensitivity.adjoint_columns import column_slopes
 from adamslite.sensitivity.directions import SHARE, STENCIL, Direction, Snapshot, direction
-from adamslite.sensitivity.measures import asked, slope
+from adamslite.sensitivity.measures import Columns, asked, compared, slope
 from adamslite.sensitivity.recipes import Known, alone
 from adamslite.sensitivity.record import Sensitivities
-from adamslite.sensitivity.taped import Probe, Ready, Taped, followed
+from adamslite.sensitivity.taped import Along, Probe, Ready, Taped, followed
 from adamslite.variation.decks import variable_of
 from adamslite.variation.kernels import of_deck
 
@@ -50,16 +49,23 @@ SENSED = "A SENSOR ended the run: derivatives where the end itself moves are not
 # A hair, as a share of the distance of the values that are taken.
 NUDGE = 1e-6
 COARSE = (
-    "the steps of the run are coarse for it: derivatives are off by some {error:.1g} of the "
-    "largest, a smaller ERROR is needed"
+    "the steps of the run are coarse for it: derivatives may be off by {error:.1g} of the largest, "
+    "a smaller ERROR is needed"
+)
+SEVERAL = (
+    "changes of branches coincide, or creep of friction begins anew: derivatives are compared with "
+    "differences of {count} more runs"
+)
+FAILED = "derivatives where changes of branches coincide are not compared: {fault}"
+COUPLED = (
+    "the order of changes at one time matters: derivatives to both sides differ, and these are "
+    "their mean"
 )
 GRAZED = "the motion only touches what changes a branch: nothing is known behind such an event"
-# Estimates from here on are reported.
-DOUBTFUL = 0.01
+# Estimates from here on are reported; runs that are compared have this ERROR at most.
+DOUBTFUL, TIGHT = 0.08, 1e-6
 # Whether motion in a plane is followed in the plane.
 PLANAR = True
-# Turns of a part by which its angles are differentiated.
-TURN = 1e-5
 # Numbers of derivatives that are held at a time; and numbers of the deck that are followed at a
 # time where CPU is limited, so that there are some when it is spent.
 MOST_HELD, LIMITED = 40_000_000, 4
@@ -233,6 +239,42 @@ class Study:
         """What a zero is small against: the numbers beside it."""
         return self.scales[number.name.partition("[")[0]] or 1.0
 
+    def compared(
+        self,
+        found: Sensitivities,
+        named: list[Named],
+        session: Taped,
+        several: int,
+        coupled: int,
+    ) -> Sensitivities:
+        """Derivatives of a run with ``several`` events at a time, beside differences of runs."""
+        if not several or found.stopped:
+            return found
+        error = min(session.chosen.settings.error, TIGHT)
+        flags = {**self.flags, "method": session.chosen.settings.method, "error": error}
+
+        def run(values: Mapping[str, float]) -> Columns:
+            made: list[Columns] = []
+            kernels = of_deck(self.kernels, self.deck.with_values(dict(values)))
+            other = Taped(kernels, None, flags, self.without, budget=self.budget)
+            other.follow = lambda system, _: made.append(
+                (system.times.copy(), *columns(system, recorded(system)))
+            )
+            other.execute(self.plan)
+            if other.outcome is not Outcome.DONE:
+                raise RunFailed(explained(other))
+            return made[0]
+
+        notes = [COUPLED] if coupled else []
+        try:
+            sizes = {each.name: self.step(each) / SHARE for each in named}
+            found, count = compared(found, run, sizes, error)
+            notes.append(SEVERAL.format(count=count))
+        except (DeckError, RunFailed, UsageError) as fault:
+            notes.append(FAILED.format(fault=fault))
+        notes = [each for each in (found.notes.get("events"), *notes) if each]
+        return replace(found, notes={**found.notes, "events": "; ".join(notes)})
+
     @cached_property
     def scales(self) -> dict[str, float]:
         """The largest of the numbers beside each other, by what they have in common."""
@@ -249,15 +291,35 @@ def sensitivities(
     of: Iterable[str] = (),
     commands: Iterable[Command] = (),
     progress: Progress | None = None,
+    compare: bool = True,
     **options: Any,
 ) -> Sensitivities:
-    """Derivatives of a deck, a model or kernels; see :func:`adamslite.sensitivities`."""
+    """Derivatives of a deck, a model or kernels; see :func:`adamslite.sensitivities`.  ``compare``:
+    with differences of runs where several events happen at a time.
+    """
     study = Study(scene, commands, options)
     with within_memory(study.memory):
-        return _worked_out(study, by, of)
+        found, named, session, along = _worked_out(study, by, of)
+        if along and compare:
+            return study.compared(found, named, session, along.several, along.coupled)
+        return found
 
 
-def _worked_out(study: Study, by: Iterable[str], of: Iterable[str]) -> Sensitivities:
+def noted(along: Along | None, errors: Mapping[str, float]) -> dict[str, str]:
+    """Words about estimated errors by name, and about events."""
+    notes = {name: COARSE.format(error=error) for name, error in errors.items() if error > DOUBTFUL}
+    return notes | ({"events": GRAZED} if along and along.grazed else {})
+
+
+def recorded(system: System) -> np.ndarray:
+    """The record of a run (nt, nw + n_out)."""
+    size = system.nw + system.sizes.n_out
+    return system.record[: len(system.times) * size].reshape(len(system.times), size)
+
+
+def _worked_out(
+    study: Study, by: Iterable[str], of: Iterable[str]
+) -> tuple[Sensitivities, list[Named], Taped, Along | None]:
     named = study.named(by)
     if not named:
         raise UsageError("derivatives by what? --by NAME; `adamslite names DECK` lists numbers")
@@ -268,8 +330,7 @@ def _worked_out(study: Study, by: Iterable[str], of: Iterable[str]) -> Sensitivi
     def follow(system: System, method: str) -> None:
         if system.triggered:
             raise UsageError(SENSED)
-        size = system.nw + system.sizes.n_out
-        record = system.record[: len(system.times) * size].reshape(len(system.times), size)
+        record = recorded(system)
         names, values = columns(system, record)
         measures, kept = asked(of, names) if of else ([], [*range(len(names))])
         lot = max(1, MOST_HELD // max(record.size, 1))
@@ -285,10 +346,9 @@ def _worked_out(study: Study, by: Iterable[str], of: Iterable[str]) -> Sensitivi
                 errors += [np.nan] * (len(found) - at)
                 made["stopped"] = Outcome.CPU_LIMIT.sentence
                 break
-            curves += [_columns(system, record, each)[:, kept] for each in along.record]
+            curves += [column_slopes(system, record, each)[:, kept] for each in along.record]
             errors += along.errors.tolist()
-            made["grazed"] = along.grazed
-        made.setdefault("grazed", 0)
+            made["along"] = along
         made.update(names=names, values=values, kept=kept, measures=measures, curves=curves)
         made["errors"] = np.array(errors)
         made["time"] = system.times.copy()
@@ -299,7 +359,7 @@ def _worked_out(study: Study, by: Iterable[str], of: Iterable[str]) -> Sensitivi
     session.execute(study.plan)
     if session.outcome is not Outcome.DONE:
         raise RunFailed(explained(session))
-    return _gathered(study, named, session, made)
+    return _gathered(study, named, session, made), named, session, made.get("along")
 
 
 def _gathered(
@@ -317,42 +377,11 @@ def _gathered(
         [slope(m, time, results[m.channel], curve[:, at[m.channel]]) for curve in curves]
         for m in measures
     ]).reshape(len(measures), len(named))  # fmt: skip
-    off = zip(named, made["errors"], strict=True)
-    notes = {n.name: COARSE.format(error=error) for n, error in off if error > DOUBTFUL}
-    notes |= dict.fromkeys(made["still"], UNUSED)
-    notes |= {"events": GRAZED} if made["grazed"] else {}
+    off = zip((n.name for n in named), made["errors"], strict=True)
+    notes = noted(made.get("along"), dict(off)) | dict.fromkeys(made["still"], UNUSED)
     notes |= session.notes
     return Sensitivities(
         tuple(n.name for n in named), np.array([n.value for n in named]), results, curves,
         tuple(map(str, measures)), np.array([m.of(time, results[m.channel]) for m in measures]),
         gradient, notes, made["errors"], made.get("stopped", ""),
     )  # fmt: skip
-
-
-def _columns(system: System, record: np.ndarray, slopes: np.ndarray) -> np.ndarray:
-    """Derivatives of the columns (nt, nc) from those of the record: all but angles are linear.
-
-    A part turns by ``TURN`` to both sides, however little its number turns it: d(angle) is the
-    difference of the ends, times |dR| / (2 TURN).  A division by |dR| alone stays finite down to
-    the least number, and a part that hardly turns loses no digits beside one that does.
-    """
-    names, found = columns(system, slopes)
-    at = {name: k for k, name in enumerate(names)}
-    found, turned = found.copy(), np.zeros_like(slopes)
-    angles: list[int] = []
-    sizes: list[np.ndarray] = []
-    for b, body in enumerate(system.model.bodies):
-        if body.width != PART:
-            continue
-        place = slice((o := system.w_at["BODY", b] + ATTITUDE), o + 9)
-        slope = slopes[:, place]
-        size = np.abs(slope).max(axis=1, keepdims=True)
-        turned[:, place] = TURN * np.divide(slope, size, out=np.zeros_like(slope), where=size > 0.0)
-        own = [at[name] for each in ANGLES if (name := body.statement.label + each) in at]
-        angles, sizes = angles + own, [*sizes, *[size] * len(own)]
-    if angles:
-        ends = [columns(system, record + sign * turned)[1][:, angles] for sign in (1.0, -1.0)]
-        gap = ends[0] - ends[1]
-        rest = (gap - 2.0 * np.pi * np.round(gap / (2.0 * np.pi))) / (2.0 * TURN)
-        found[:, angles] = rest * np.concatenate(sizes, axis=1)
-    return found

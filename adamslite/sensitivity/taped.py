@@ -50,6 +50,8 @@ SEVERAL = (
 )
 # Share of ERROR that iterations of the corrector may leave.
 CORRECTED = 0.02
+# Of what steps are off by this multiple, and ERROR, contain what derivatives are off by.
+FACTOR = 8.0
 # Whether systems of all steps are solved to round-off.
 EXACT = False
 # Increments below this share of what the workspace holds, over the number, are round-off.
@@ -73,13 +75,16 @@ class LeftPlane(Exception):
 
 class Along(NamedTuple):
     """Derivatives of the record (np, nt, nw + n_out), and what they may be off by (np,), as a share
-    of the largest place or velocity; events whose time has no derivative;
+    of the largest place or velocity; events whose time has no derivative, those where several
+    guards change or states are reset, and those whose order matters;
     ``matrices``: how many were made along steps of GSTIFF.
     """
 
     record: np.ndarray
     errors: np.ndarray
     grazed: int
+    several: int
+    coupled: int
     matrices: int
 
 
@@ -257,7 +262,7 @@ def followed(
     count, w = collected.record.count, 2 * system.n + system.ns
     size, guards = system.nw + system.sizes.n_out, system.W.size - system.nw
     made = Forward.zeros()
-    made.exact, made.limit = EXACT, CORRECTED * system.settings.error
+    made.exact, made.limit, made.last_t = EXACT, CORRECTED * system.settings.error, -1e300
     made.width, made.room = w, max(room(w), 8 * w + 3 * (system.nz + system.holonomic))
     history = np.zeros((count, made.room))
     history[:, :w] = collected.start
@@ -273,6 +278,7 @@ def followed(
         "v": np.zeros(system.n), "mu": np.zeros(system.holonomic + 1),
         "rate": np.zeros(w), "jump": np.zeros(w),
         "speed": np.zeros(guards), "kind": np.zeros(guards), "shift": np.zeros(count * guards + 1),
+        "last": np.zeros(count + 1),
         "record": np.zeros(count * len(system.times) * size + 1),
     }  # fmt: skip
     for name, value in arrays.items():
@@ -295,10 +301,10 @@ def followed(
         raise LeftPlane
     least = np.repeat(made.floor[:-1], 2)
     shares = made.spent / np.maximum(made.top, np.maximum(least, TINY))
-    known = shares.reshape(count, 2).max(axis=1)
+    known = FACTOR * shares.reshape(count, 2).max(axis=1) + system.settings.error
     return Along(
         made.record[:-1].reshape(count, len(system.times), size), known, made.grazed,
-        made.matrices,
+        made.several, made.coupled, made.matrices,
     )  # fmt: skip
 
 
