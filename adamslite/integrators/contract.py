@@ -218,7 +218,8 @@ class Report(Record):
     steps that were; ``stable_step``: the longest stable step anywhere, for equal steps; ``moved``:
     by a projection; ``stiffness damping``: spectral radii of M^-1 K and M^-1 C; ``jolt speed
     jolts``: the largest change of a velocity within a step that accelerations at its ends leave
-    open, the largest velocity, and how many were large (:mod:`adamslite.integrators.jolts`).
+    open, the largest velocity, how many were large (:mod:`adamslite.integrators.jolts`); ``floor``:
+    the largest error of an accepted step that is round-off.
     """
 
     t: float
@@ -246,6 +247,7 @@ class Report(Record):
     jolt: float
     speed: float
     jolts: int
+    floor: float
 
 
 class Counts(Record):

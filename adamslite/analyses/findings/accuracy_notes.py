@@ -148,6 +148,11 @@ def accuracy_notes(
     if told or not found:
         told += _of_method(settings, steps, report)
     told += _of_steps(settings, report)
+    if report.floor > 0.0:
+        told.append(
+            f"round-off of positions leaves up to {report.floor:.1e} of a velocity in a step: "
+            "this model keeps no smaller ERROR"
+        )
     if told and settings.form != settings.formula.formulations[0] and system.holonomic:
         told.append("I3 does not test velocities, so that their errors add up; SI2 does")
     return "; ".join(told)

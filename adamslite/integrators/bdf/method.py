@@ -109,7 +109,7 @@ def begin(P: Problem, L: Plan, C: Control) -> int:
     C.caution = 1.0
     C.width, C.highest = 2 * P.sizes.n + P.sizes.ns, most_order(P)
     start_watch(C.cap)
-    P.report.order_capped = False
+    P.report.order_capped, P.report.floor = False, 0.0
     start_events(P, True, tests_velocities(P))
     started = accelerations(P, L, C.t, P.q, P.u, P.a, P.z, P.rd)
     hold_watch(P)

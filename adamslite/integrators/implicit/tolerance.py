@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
-from adamslite.integrators.linalg.norms import largest_share, place_of
+from adamslite.integrators.linalg.norms import largest_of, largest_share, place_of
 from adamslite.integrators.stepping.outcome import OVERFLOW
-from adamslite.native.translate import Reals, maximum, native
+from adamslite.native.translate import Reals, maximum, native, seldom
 
 # Fixed steps have no error test: a corrector looser than this would be all that errs.
 LOOSEST = 1e-3
+# Round-off of positions as a share of the largest; what counts instead of an error of that size:
+# steps grow, because round-off over the step falls.
+ROUND_OFF, CALM = 2e-15, 0.01
 
 
 @native
@@ -37,3 +40,16 @@ def most_wrong(top: float, d: Reals, y: Reals, n: int, ns: int, si2: bool) -> in
     if found < 0:
         found = 2 * n + place_of(top, d[2 * n :], y[2 * n :], ns)
     return max(found, 0)
+
+
+@native
+@seldom
+def beyond_round_off(P: Problem, norm: float, q: Reals, cu: float) -> float:
+    """The error ``norm`` of a step over ERROR; CALM where it is below the round-off of positions
+    ``q`` that constraints hand on to velocities, of which a shorter step has more.
+    """
+    noise = ROUND_OFF * max(1.0, largest_of(q, P.sizes.n)) * cu
+    if P.sizes.holonomic == 0 or not norm * P.settings.error <= noise:
+        return norm
+    P.report.floor = max(P.report.floor, norm * P.settings.error)
+    return CALM

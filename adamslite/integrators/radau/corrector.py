@@ -36,6 +36,8 @@ LEAST_RATE = 0.01
 AGED = 0.8
 # Increments that shrink by less than this do not converge; what 1 - RATE counts at least.
 STALLED, LEAST_REST = 0.99, 0.01
+# Increments of this many times the round-off of positions, over the step, cannot be improved.
+NOISE = 10.0
 # Factors made for a step that differs by this share serve.
 SAME_STEP = 1e-6
 
@@ -69,15 +71,17 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
         if not size < OVERFLOW:
             return False
         good = C.made == turn or serves(felt, before, P.settings.error, CORRECTOR_SHARE)
+        hopeless = C.made == turn and turn > 0
         if C.made < turn and last > 0.0:
             C.theta = size / last
-            if C.theta > (DIVERGING if turn == 1 else STALLED):
-                return good and size <= round_off(P, C)
             rest = max(LEAST_REST, 1.0 - C.theta)
             C.rate = max(LEAST_RATE, C.theta / rest)
-            if turn > 1 and C.theta ** (most - 1.0 - turn) / rest * size > tolerance:
+            hopeless = C.theta > (DIVERGING if turn == 1 else STALLED) or (
+                turn > 1 and C.theta ** (most - 1.0 - turn) / rest * size > tolerance
+            )
+            if hopeless and size > NOISE * round_off(P, C):
                 return False
-        if C.rate * size <= tolerance:
+        if C.rate * size <= tolerance or (hopeless and size <= NOISE * round_off(P, C)):
             if good:
                 return True
             C.known = turn == 0 or felt <= SHRINKING * before

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.implicit.formulation import equations_kept, is_stabilised
-from adamslite.integrators.implicit.tolerance import most_wrong, weighted
+from adamslite.integrators.implicit.tolerance import beyond_round_off, most_wrong, weighted
 from adamslite.integrators.linalg.blocks import solve
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import (
@@ -45,6 +45,8 @@ def local_error(P: Problem, L: Plan, C: Control) -> float:
         for i in range(w):
             base[i] += error[i]
         norm = newton_error(P, L, C, base, error)
+    if norm > 1.0:
+        norm = beyond_round_off(P, norm, P.history[ORIGIN * w :], P.tableau[REAL] / C.h)
     P.report.error = norm
     return norm
 

@@ -93,6 +93,7 @@ def begin(P: Problem, L: Plan, C: Control) -> int:
     n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     P.undoing[:] = 0
     start_jolts(P)
+    P.report.floor = 0.0
     C[:] = 0
     for i in range(P.history.size):
         Y[i] = 0.0
