@@ -97,13 +97,10 @@ ACCELERATION = LOADS | REACTIONS | ACCELERATION_ROWS | ROWS
 
 # Coefficients of a Jacobian: of its derivatives by q, u, a, (lam, V) and s'.
 COEFFICIENTS = 5
-
 # Steps below this share of the run are round-off of the time.
 LEAST_STEP = 1e-14
-
 # The one pace of a run whose steps are not held back.
 NO_PACE = (-1e300, 1e300, 1e300)
-
 # Share of the limit of stability that equal steps of VERLET may take: the power iteration comes to
 # the eigenvalue from below.
 STABLE = 0.93
