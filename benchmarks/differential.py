@@ -265,6 +265,7 @@ def main(arguments: list[str] | None = None) -> int:
     kept: dict[str, Any] = {}
     if args.sample:
         tasks, kept = sample()
+        tasks = [task for task in tasks if task.kind in args.kinds]
     elif args.deck:
         tasks = [Task(kind, number, args.seed) for kind in args.kinds for number in args.deck]
     else:

@@ -11,10 +11,8 @@ from scipy.interpolate import Akima1DInterpolator, CubicSpline
 
 from benchmarks.posed import LENGTH, RELATIVE, SPEED, STATE, Draw, Pace, Posed, Values, family
 
-#: Steps of a truth within the shortest thing that a force does, and on the way to it.
-WITHIN, TOWARDS = 0.05, 0.3
-#: Steps of a truth in the whole run, at least.
-LEAST = 200.0
+#: Steps of a truth within the shortest event of a force, on the way to it, and in the run at least.
+WITHIN, TOWARDS, LEAST = 0.05, 0.3, 200.0
 
 
 def step(kind: str, x: float, a: float, b: float) -> float:
