@@ -141,3 +141,21 @@ def test_a_table_that_is_flat_over_many_knots_costs_no_steps() -> None:
             )  # fmt: skip
             steps.append(simulate(deck).summary["steps"])
         assert steps[0] <= steps[1] + 3
+
+
+@pytest.mark.numerical
+@pytest.mark.parametrize("method", ["GSTIFF", "RADAU", "HHT", "ABAM"])
+def test_a_hump_between_two_knots_is_not_hidden_by_its_ends(method) -> None:
+    """Akima's cubic over 10 m beside a spike is zero at both of its knots, and large in between."""
+    x = np.array([-5, 0, 10, 20, 30, 40, 50, 50.1, 50.2, 50.3, 50.4, 60, 70, 80, 90, 100, 120])
+    y = np.zeros(len(x))
+    y[7:10] = 1000, 2000, 1000
+    deck = DECK.format(
+        x=listed(x), y=listed(-y), mass=1, speed=100, end=1, steps=4, force="AKISPL(100-DX(2),0,1)"
+    )
+    table, ends = interpolant(x, -y[:, None], "akima"), np.linspace(0, 100, 200001)
+    force = table.at(100 - 0.5 * (ends[1:] + ends[:-1]))[:, 0]
+    truth = sqrt(100**2 + 2 * force.sum() * (ends[1] - ends[0]))
+    for error in (1e-3, 1e-4, 1e-5):
+        speed = simulate(deck, integrator=method, error=error)["POINT_MASS/2.vx"][-1]
+        assert abs(speed / truth - 1) < 0.03

@@ -300,12 +300,10 @@ def room_in_table(T: Reals, x: float) -> float:
 
 @native
 def share_up_table(T: Reals, n: int, a: float, b: float, r: float, s: float, span: float) -> float:
-    """The same for one direction; a method that does not test velocities passes a share of the
-    pieces in a step.
-    """
+    """The same for one direction; of the pieces a step passes a share: ends may hide a hump."""
     k = count_up_to(T, n, a)
     level, most = T[n + k], T[2 * n + 1 + k]
-    if span < SHARE_OF_ZONE and k > 0:
+    if k > 0:
         level = min(level, a + span * (level - T[k - 1]))
         most = min(most, level)
     return share_up_to(a, b, r, s, level, most)
