@@ -54,6 +54,8 @@ def near_a_peak(draw: Draw) -> Posed:
             return inf
         half = acos(max(level, -1.0))
         phase = lag if sign > 0 else lag + pi
+        if cos(phase) >= level and how == "EQ":  # from beyond the value it is met on the way back
+            return float((half - phase) % (2 * pi)) / rate
         if cos(phase) >= level:
             return 0.0
         return float((-half - phase) % (2 * pi)) / rate
@@ -61,6 +63,7 @@ def near_a_peak(draw: Draw) -> Posed:
     def halts(off: float) -> tuple[float, float]:
         room = 3.0 * off + 4.0 * SENSOR
         least, most = first(1.0 - short - room), first(1.0 - short + room)
+        least, most = min(least, most), max(least, most)
         return least, most if most <= end else inf
 
     posed = draw.closed(
