@@ -34,6 +34,12 @@ def test_a_run_that_stops_early_warns() -> None:
     assert said[0].filename == __file__
 
 
+def test_the_part_of_an_expression_without_a_value_is_named_with_its_values() -> None:
+    results = al.simulate(FALL, strict=None)
+    assert "SFORCE/1" in results.message
+    assert "SQRT(1 + DY(2, 1, 0)) is nan at 1 + DY(2, 1, 0) = -" in results.message
+
+
 def test_strict_raises_with_the_results() -> None:
     with pytest.raises(al.RunFailed, match="NOT_FINITE") as caught:
         al.simulate(FALL, strict=True)

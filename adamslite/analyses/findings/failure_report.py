@@ -3,20 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from math import isnan
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from adamslite.assembly.reader import NumberReader
+from adamslite.assembly.scope import Posture, Unmeasured
 from adamslite.equations.unknown_names import equation, placed, tested, unknown
 from adamslite.integrators import contract
 from adamslite.integrators.contract import JACOBIAN, RESIDUAL
 from adamslite.integrators.verlet.control import Control
+from adamslite.language.expression import Num, Ref, to_text
 from adamslite.results.outcomes import Outcome
+from adamslite.symbolic.formulas import with_numbers
 
 if TYPE_CHECKING:
     from adamslite.analyses.initial.conditions import Unclosed
     from adamslite.equations.system import System
+    from adamslite.language.interfaces import Key
     from adamslite.language.statement import Statement
 
 # A step below this multiple of HMIN is HMIN.
@@ -27,6 +33,8 @@ MOST_SEARCHED = 1500
 RANK = 1e-12
 # The search ahead for an expression without a value doubles its way so often at most.
 DOUBLINGS = 40
+# Statements of a deck that are searched for an expression without a value.
+MOST_LISTED = 300
 # Contradicting statements named.
 MOST_NAMED = 4
 # Least steps below this share of the run are its own.
@@ -179,24 +187,68 @@ def _not_finite(system: System) -> str:
     """The statement whose expression has no value where the run stands, or further ahead: as far
     as an output step of VERLET, which stands still at the last output time.
     """
-    start, report = system.q.copy(), system.report
+    start, report, deck = system.q.copy(), system.report, system.model.deck.statements
     system.a[:], system.z[:] = 0.0, np.nan_to_num(system.z)
     ahead = [0.0, *(report.h * np.exp2(range(DOUBLINGS)))]
     far = float(np.diff(system.times).max(initial=0.0))
-    for way in (each for each in ahead if each <= max(far, report.h)):
-        system.settings.t = report.t + way
-        system.q[: system.n] = start[: system.n] + way * system.u[: system.n]
-        guilty = _without_value(system)
-        if guilty is not None:
-            break
+    before: set[str] = set()
+
+    def new_in_deck() -> Statement | None:
+        """A statement whose expression loses its value here, though it has no equation."""
+        lost = (each for each in deck if each.label not in before and _undefined(system, each))
+        return next(lost, None)
+
+    for find in (partial(_without_value, system), new_in_deck)[: 1 + (len(deck) < MOST_LISTED)]:
+        for way in (each for each in ahead if each <= max(far, report.h)):
+            system.settings.t = report.t + way
+            system.q[: system.n] = start[: system.n] + way * system.u[: system.n]
+            if find is new_in_deck and not way:
+                before |= {each.label for each in deck if _undefined(system, each)}
+            if (guilty := find()) is not None:
+                cause = _undefined(system, guilty)
+                system.q[:] = start
+                return f"{placed(guilty)}: {_when(system)}{cause}"
     system.q[:] = start
-    if guilty is not None:
-        return f"{placed(guilty)}: {_when(system)}"
     guilty = _without_derivative(system)
     if guilty is not None:
         return f"{placed(guilty)}: {_when(system)}, a derivative has no value"
     text = f"{tested(system, report.where)}: {_when(system)}"
     return f"{text}, though no statement by itself lacks a value. Look at END, HMAX and ERROR too"
+
+
+def _undefined(system: System, statement: Statement) -> str:
+    """The innermost part of the statement's expressions without a finite value, in words, with the
+    values of what it is made of; empty where no posture alone gives one.
+    """
+    bodies, start = system.model.bodies, Posture.start(system.model)
+    for b, i in enumerate(system.starts[: len(bodies)]):
+        width = int(system.widths[b])
+        start.x[b], start.speed[b, :width] = system.q[i : i + 3], system.u[i : i + width]
+    start.attitude[:] = system.base[: 9 * len(bodies)].reshape(-1, 3, 3)
+    reader = NumberReader(system.model, start, False)
+    reader.now = float(system.settings.t)
+    fields = (getattr(statement, name) for name, each in statement.arguments.items()
+              if each.kind == "expression")  # fmt: skip
+    pending = [each for each in fields if each is not None]
+    seen: set[Key] = set()
+    while pending:
+        node = pending.pop()
+        parts = [each for each in getattr(node, "args", ()) if not isinstance(each, Ref)]
+        refs = [each for each in getattr(node, "args", ()) if isinstance(each, Ref)]
+        named = [each.id for each in refs if each.kind == "VARIABLE"]
+        named, seen = [each for each in named if each not in seen], {*seen, *named}
+        pending += [*(system.model.variable(each).function for each in named), *parts]
+        try:
+            with with_numbers():
+                values = [float(reader.value(each).value) for each in parts]
+                whole = float(reader.value(node).value)
+        except (Unmeasured, TypeError, AttributeError):
+            continue
+        if not np.isfinite(whole) and not named and np.isfinite(values).all():
+            pairs = zip(parts, values, strict=True)
+            given = [f"{to_text(p)} = {x:.6g}" for p, x in pairs if not isinstance(p, Num)]
+            return f", {to_text(node)} is {whole:g} at {', '.join(given)}"
+    return ""
 
 
 def _without_value(system: System) -> Statement | None:
