@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from itertools import takewhile
-from math import inf
+from math import inf, pi
 from numbers import Real
 from typing import TYPE_CHECKING, Any
 
@@ -22,7 +22,7 @@ from adamslite.deck.element_switch import Switch
 from adamslite.deck.redefinition import Redefinition
 from adamslite.elements.simulate import Simulate
 from adamslite.equations.result_columns import column_names
-from adamslite.equations.unknown_names import placed
+from adamslite.equations.unknown_names import placed, tested
 from adamslite.errors import RunFailed, UsageError
 from adamslite.integrators.linalg.plan import TINY
 from adamslite.language.interfaces import key_of
@@ -49,8 +49,9 @@ if TYPE_CHECKING:
     from adamslite.results.source import RunSource
 
 CAPPED = (
-    "held at 2: stiff vibrations without damping limited the steps of higher orders; HHT suits "
-    "such a scene"
+    "held at 2: a vibration of {where}, about {rate:.2g} cycles per unit of time, is not followed: "
+    "it limited the steps of higher orders, which feed it for lack of damping; HHT suits such a "
+    "scene"
 )
 FASTER = (
     "an expression of TIME changes faster or more often than the steps of this run can follow, and "
@@ -381,7 +382,9 @@ def _notes(session: Session) -> dict[str, str]:
         ways = "one way" if session.ways_to_fall == 1 else f"{session.ways_to_fall} ways"
         found["equilibrium"] = f"unstable in {ways}: the least disturbance makes it leave"
     if session.system.report.order_capped:
-        found["order"] = CAPPED
+        report = session.system.report
+        where, rate = tested(session.system, int(report.vibrating)), report.vibration / (2.0 * pi)
+        found["order"] = CAPPED.format(where=where, rate=rate)
     if session.balances:
         found["energy"] = str(_worst(session.balances))
     notes = {each.model.note: each.time for each in reversed(session.linearizations)}

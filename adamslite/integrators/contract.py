@@ -211,7 +211,8 @@ class Report(Record):
     ``t h order``: of the present try; ``violation``: the largest of a constraint; ``error``: the
     last estimate over ERROR, ``where`` it is largest; ``iteration changed change open_row
     open_by``: of a corrector that failed (:mod:`adamslite.integrators.failure_notes`); ``torn``: a
-    redundant row that opened; ``spent``: sum of the estimated errors over ERROR; ``divided``: fixed
+    redundant row that opened; ``vibrating vibration``: a variable and the rate [rad/time] of what
+    capped the order; ``spent``: sum of the estimated errors over ERROR; ``divided``: fixed
     steps that were; ``stable_step``: the longest stable step anywhere, for equal steps; ``moved``:
     by a projection; ``stiffness damping``: spectral radii of M^-1 K and M^-1 C; ``jolt speed
     jolts``: the largest change of a velocity within a step that accelerations at its ends leave
@@ -226,6 +227,8 @@ class Report(Record):
     where: int
     error: float
     order_capped: bool
+    vibrating: int
+    vibration: float
     ways_to_fall: int
     rough_steps: int
     iteration: int
