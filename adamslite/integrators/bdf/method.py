@@ -141,6 +141,8 @@ def advance(P: Problem, L: Plan, C: Control) -> int:
     if is_filtered(C):
         filter_error(P, L, C)
     norm = local_error(P, C)
+    if C.cap.outdated:
+        return after_failure(P, C)
     if not is_allowed(norm, P.settings.fixed_step):
         return after_rejection(P, C, norm)
     if passed_singularity(P, L, C):

@@ -77,7 +77,9 @@ def local_error(P: Problem, C: Control) -> float:
     P.report.where = most_wrong(size, d, y, n, ns, tested)
     share = CUBIC_PAST if C.order == 3 and C.h_last == 0.0 else 1.0
     norm = share * size / ((C.order + 1.0) * P.settings.error)
+    cap.outdated = False
     if is_filtered(C) and cap.filtered < norm:
+        cap.outdated = norm > 1.0 and not C.fresh
         norm = max(cap.filtered, UNFILTERED * norm)
     norm /= max(1.0, cap.loose)
     if norm > 1.0:

@@ -55,7 +55,8 @@ class OrderCap(Record):
     ``rest``: tries until the next one, ``next_rest`` after that; of a vibration ``rate``
     [rad/time], ``amplitude`` and ``where`` it is; ``least``: step before the
     trial; ``loose``: times ERROR that steps may err while it is damped; ``filters`` errors;
-    ``filtered``: error of the present try without stiff components.
+    ``filtered``: error of the present try without stiff components; ``outdated``: an earlier
+    step's matrix has made it small.
     """
 
     state: float
@@ -74,6 +75,7 @@ class OrderCap(Record):
     loose: float
     filters: bool
     filtered: float
+    outdated: bool
 
 
 @native
