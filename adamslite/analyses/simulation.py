@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from itertools import takewhile
-from math import inf, pi
+from math import inf, tau
 from numbers import Real
 from typing import TYPE_CHECKING, Any
 
@@ -49,9 +49,8 @@ if TYPE_CHECKING:
     from adamslite.results.source import RunSource
 
 CAPPED = (
-    "held at 2: a vibration of {where}, about {rate:.2g} cycles per unit of time, is not followed: "
-    "it limited the steps of higher orders, which feed it for lack of damping; HHT suits such a "
-    "scene"
+    "held at 2: higher orders feed a vibration of {where}, about {rate:.2g} cycles per unit of "
+    "time, for lack of damping; it is not followed. HHT suits such a scene"
 )
 FASTER = (
     "an expression of TIME changes faster or more often than the steps of this run can follow, and "
@@ -382,9 +381,8 @@ def _notes(session: Session) -> dict[str, str]:
         ways = "one way" if session.ways_to_fall == 1 else f"{session.ways_to_fall} ways"
         found["equilibrium"] = f"unstable in {ways}: the least disturbance makes it leave"
     if session.system.report.order_capped:
-        report = session.system.report
-        where, rate = tested(session.system, int(report.vibrating)), report.vibration / (2.0 * pi)
-        found["order"] = CAPPED.format(where=where, rate=rate)
+        where = tested(session.system, int(session.system.report.vibrating))
+        found["order"] = CAPPED.format(where=where, rate=session.system.report.vibration / tau)
     if session.balances:
         found["energy"] = str(_worst(session.balances))
     notes = {each.model.note: each.time for each in reversed(session.linearizations)}
