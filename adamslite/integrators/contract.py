@@ -210,14 +210,13 @@ class Report(Record):
 
     ``t h order``: of the present try; ``violation``: the largest of a constraint; ``error``: the
     last estimate over ERROR, ``where`` it is largest; ``iteration changed change open_row
-    open_by``: of a corrector that failed (:mod:`adamslite.integrators.failure_notes`); ``torn``: a
-    redundant row that opened; ``vibrating vibration``: a variable and the rate [rad/time] of what
-    capped the order; ``spent``: sum of the estimated errors over ERROR; ``divided``: fixed
-    steps that were; ``stable_step``: the longest stable step anywhere, for equal steps; ``moved``:
-    by a projection; ``stiffness damping``: spectral radii of M^-1 K and M^-1 C; ``jolt speed
-    jolts``: the largest change of a velocity within a step that accelerations at its ends leave
-    open, the largest velocity, how many were large (:mod:`adamslite.integrators.jolts`); ``floor``:
-    the largest error of an accepted step that is round-off.
+    open_by``: of a corrector that failed (:mod:`~adamslite.integrators.failure_notes`); ``torn``: a
+    redundant row that opened; ``vibrating vibration``: what capped the order, its rate; ``spent``:
+    sum of the estimated errors; ``divided``: fixed steps that were; ``stable_step``: the longest
+    for equal steps; ``moved``: by a projection; ``stiffness damping``: spectral radii of M^-1 K,
+    M^-1 C; ``jolt speed jolts``: the largest change of a velocity in a step that accelerations
+    leave open, the largest velocity, how many were large (:mod:`~adamslite.integrators.jolts`);
+    ``floor``: the largest accepted error that is round-off.
     """
 
     t: float
