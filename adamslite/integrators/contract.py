@@ -210,13 +210,12 @@ class Report(Record):
 
     ``t h order``: of the present try; ``violation``: the largest of a constraint; ``error``: the
     last estimate over ERROR, ``where`` it is largest; ``iteration changed change open_row
-    open_by``: of a corrector that failed (:mod:`~adamslite.integrators.failure_notes`); ``torn``: a
-    redundant row that opened; ``vibrating vibration``: what capped the order, its rate; ``spent``:
-    sum of errors; ``divided``: fixed steps that were; ``stable_step``: the longest for equal steps;
-    ``moved``: by a projection; ``stiffness damping``: spectral radii of M^-1 K, M^-1 C; ``jolt
-    speed jolts``: largest change of a velocity that accelerations leave open, largest velocity, how
-    many were large (:mod:`~adamslite.integrators.jolts`); ``floor``: the largest accepted error
-    that is round-off.
+    open_by``: of a corrector that failed; ``torn``: a redundant row that opened; ``vibrating
+    vibration``: what capped the order, its rate; ``spent``: sum of errors; ``divided``: fixed steps
+    that were; ``stable_step``: the longest for equal steps; ``moved``: by a projection; ``stiffness
+    damping``: spectral radii of M^-1 K, M^-1 C; ``jolt speed jolts``: largest change of a velocity
+    that accelerations leave open, largest velocity, how many were large; ``floor``: the largest
+    accepted error that is round-off.
     """
 
     t: float
