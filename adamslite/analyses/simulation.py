@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from adamslite.analyses.session.row_notes import seen_in_rows
+from adamslite.analyses.session.row_notes import seen_in_rows, with_accuracy
 from adamslite.analyses.session.session import Session
 from adamslite.analyses.setup.output_times import SETTINGS, dynamics, need_room, plan_of
 from adamslite.analyses.setup.run_options import Budget, budget_of, checked, within_memory
@@ -56,7 +56,6 @@ FASTER = (
     "an expression of TIME changes faster or more often than the steps of this run can follow, and "
     "what it does may be missed; a shorter HMAX shows it"
 )
-# Columns named that hold entries without a value.
 #: How often all rows are in memory to be compared with those of witnesses, to be drawn.
 CONFIRMED, DRAWN = 5, 2
 COUNTED = (
@@ -116,6 +115,7 @@ def simulate(
     with within_memory(memory):
         subject = prepared_for(scene, commands)
         session = Session(subject, progress, flags, without, audit, files, budget, journal)
+        session.memory = memory
         second = partial(
             _attempted, session.kernels, end, steps, commands=commands, no_reduction=no_reduction,
             notes=False,
@@ -305,8 +305,7 @@ def _marker(deck: Deck, word: str) -> Key:
 
 
 def _results(session: Session, cpu: tuple[float, float], notes: bool, source: RunSource) -> Results:
-    system = session.system
-    counts = session.counts.values()
+    system, counts = session.system, session.counts.values()
     summary: dict[str, Any] = {
         "outcome": session.outcome.name, "t_end": session.time, "dof": system.dof,
         **{name: counts[name] for name in COUNTED}, "setup_cpu_s": cpu[0], "solve_cpu_s": cpu[1],
@@ -346,7 +345,7 @@ def _known(session: Session) -> Mapping[str, str]:
 
 def _meta(session: Session) -> Mapping[str, str]:
     hurried = ", ".join(dict.fromkeys(map(placed, session.system.hurried)))
-    return {
+    known = {
         **_known(session),
         **_notes(session),
         **session.apart.meta,
@@ -357,6 +356,7 @@ def _meta(session: Session) -> Mapping[str, str]:
         **({"time": f"{hurried}: {FASTER}"} if hurried else {}),
         **seen_in_rows(session),
     }
+    return with_accuracy(known, session)
 
 
 def _past(session: Session) -> dict[str, str]:

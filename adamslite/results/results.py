@@ -77,6 +77,7 @@ class Results:
         One row per output time, in the units of the deck (angles in radians).
     meta : mapping of str to str
         What the values belong to (deck, hash, units, integrator, ...): the comment lines of a file.
+        That on the accuracy takes a second run when it, or all of them, are first looked at.
     outcome : Outcome
         How the run ended.
     message : str

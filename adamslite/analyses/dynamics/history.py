@@ -97,6 +97,12 @@ class History:
             filed = part.continued(filed, each)
         self.part, self.stretches = part, filed
 
+    def copy(self) -> History:
+        """All rows in memory of their own."""
+        found, whole = History(), self.whole
+        found.extend(Piece(whole.times.copy(), whole.names, whole.values.copy()))
+        return found
+
     def cut(self, rows: int) -> None:
         """Take the last rows away."""
         while rows > 0:

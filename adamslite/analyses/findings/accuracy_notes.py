@@ -116,8 +116,24 @@ class Channel(NamedTuple):
         return int(late.argmax()) if late.any() else rows
 
 
+class Ended(NamedTuple):
+    """What is left of a system whose run has ended: its report, the longest step that it took."""
+
+    model: Model
+    report: contract.Report
+    holonomic: bool
+    longest: float
+
+    @classmethod
+    def of(cls, system: System) -> Ended:
+        """A copy of what the system has."""
+        report = contract.Report.zeros()
+        report[:] = system.report
+        return cls(system.model, report, bool(system.holonomic), float(system.settings.h_max))
+
+
 def accuracy_notes(
-    system: System,
+    system: Ended,
     settings: Settings,
     counts: contract.Counts,
     history: History,
@@ -126,16 +142,8 @@ def accuracy_notes(
 ) -> str:
     """What ERROR does not say about the accuracy of a run, in sentences; empty when it does.
 
-    Parameters
-    ----------
-    system : System
-        Behind the run.
-    counts : Counts
-        Steps, restarts and the like of all of it.
-    history : History
-        The records of it.
-    second, factor : Results or None, float
-        Of a second run, and the error over the difference from it.
+    ``counts`` and ``history`` are those of all of it; ``second`` are the results of a second run,
+    and ``factor`` is the error over the difference from it.
     """
     if settings.formula.steps == FIXED:
         return "equal steps without error test: compare a run with half of HINIT"
@@ -189,7 +197,7 @@ def second_run(
 
 
 def _compared(
-    system: System, settings: Settings, history: History, second: Results
+    system: Ended, settings: Settings, history: History, second: Results
 ) -> Compared | None:
     """What lies between a run and a second one; None where they have no times in common."""
     run = history.whole
@@ -262,7 +270,7 @@ def _angle(one: np.ndarray, other: np.ndarray) -> np.ndarray:
 
 
 def _estimated(
-    system: System, settings: Settings, steps: int, factor: float, found: Compared
+    system: Ended, settings: Settings, steps: int, factor: float, found: Compared
 ) -> Iterator[str]:
     """The estimated errors of a run, the worst of each kind."""
     channels, times, part = found
@@ -280,7 +288,7 @@ def _estimated(
         share = f"{off:.2%} of its range" if off < 1.0 else "more than its range"
         if off > 0.1 * felt:
             texts.append(f"{off * each.range:.1e}{each.unit} in {each.name} ({share})")
-    longest = float(system.settings.h_max)
+    longest = system.longest
     limited = steps * longest * LIMITED < float(np.ptp(times)) / part
     remedy = f"a shorter HMAX than {longest:.3g}" if limited else _remedy(settings)
     yield (

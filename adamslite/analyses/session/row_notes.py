@@ -1,19 +1,21 @@
 """What the rows of a run show, in words: forces out of their laws, joints that stand still, columns
-without numbers, how accurate they are.
+without numbers, how accurate they are, which takes a second run when somebody asks for it.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from adamslite.analyses.findings.accuracy_notes import accuracy_notes, second_run
+from adamslite.analyses.findings.accuracy_notes import Ended, accuracy_notes, second_run
 from adamslite.analyses.findings.buckling import buckled
 from adamslite.analyses.findings.slack import compressed
 from adamslite.results.outcomes import Outcome
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
     from adamslite.analyses.dynamics.history import History
     from adamslite.analyses.session.session import Session
 
@@ -23,6 +25,11 @@ MOST_NAMED = 5
 MOST_LOOKED_AT = 2**24
 #: Evaluations of routines of a user that a second run may repeat.
 ROUTINE_CALLS = 5_000
+ACCURACY = "accuracy"
+#: Statements that may name a table, which is read again for a model that commands change.
+WITH_FILES = ("SPLINE", "MATRIX")
+#: Numbers of rows that are copied for a comparison with a second run that may come later, or not.
+MOST_COPIED = 2**19
 LATER = (
     "columns without numbers, cables that push, joints that stand still and the accuracy, "
     "in {rows} rows: what goes on with the run does, when it is done"
@@ -35,13 +42,10 @@ def seen_in_rows(session: Session) -> dict[str, str]:
     if session.outcome is Outcome.INTERRUPTED and history.numbers > MOST_LOOKED_AT:
         return {**_beyond(session), "not looked for": LATER.format(rows=history.count)}
     slack = compressed(session.deck, history) if history.count else ""
-    found = {
+    return {
         **_analyses(session), **_beyond(session, slack), **_standing(session),
         **_without_value(history),
     }  # fmt: skip
-    if session.counts.steps and (note := _accuracy_note(session)):
-        found["accuracy"] = note
-    return found
 
 
 def _analyses(session: Session) -> dict[str, str]:
@@ -89,18 +93,91 @@ def _without_value(history: History) -> dict[str, str]:
     return {"no number": "; ".join(texts) + more} if texts else {}
 
 
-def _accuracy_note(session: Session) -> str:
-    settings, history, counts = session.chosen.settings, session.history, session.counts
-    second, factor = None, 0.0
+class Comments(dict[str, str]):
+    """Comments of a run; ``later`` makes the one on its accuracy, when it or all are looked at."""
+
+    def __init__(self, known: Mapping[str, str], later: Callable[[], str] | None) -> None:
+        super().__init__(known)
+        self.later = later
+
+    def settle(self) -> None:
+        """Make it now; empty it is none."""
+        later = self.later
+        if later and (text := later()):
+            dict.setdefault(self, ACCURACY, text)
+        self.later = None  # last: another thread may look meanwhile
+
+    def __missing__(self, key: str) -> str:
+        if key in self:
+            return self[key]
+        raise KeyError(key)
+
+    def __contains__(self, key: object) -> bool:
+        if key == ACCURACY:
+            self.settle()
+        return super().__contains__(key)
+
+    def get(self, key: str, default: Any = None) -> Any:
+        return self[key] if key in self else default
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return dict, (dict(self),)
+
+
+def _settled(method: Callable[..., Any]) -> Callable[..., Any]:
+    """A method of mappings that looks at all comments."""
+
+    def looking(comments: Comments, *arguments: Any) -> Any:
+        comments.settle()
+        return method(comments, *arguments)
+
+    return looking
+
+
+for _name in (
+    "__iter__", "__reversed__", "__len__", "__eq__", "__ne__", "__or__", "__ror__", "__repr__",
+    "__delitem__", "keys", "values", "items", "copy", "pop", "popitem", "setdefault",
+):  # fmt: skip
+    setattr(Comments, _name, _settled(getattr(dict, _name)))
+
+
+def with_accuracy(known: Mapping[str, str], session: Session) -> Comments:
+    """Comments of a run and the one on its accuracy: made now where there are many rows, and where
+    it depends on what may be different later: files, routines of the user, a limit of memory.
+    """
+    none = "not looked for" in known or not session.counts.steps
+    deck, many = session.deck, session.history.numbers > MOST_COPIED
+    files = session.saves.files.folder or any(
+        getattr(each, "file", None) for keyword in WITH_FILES for each in deck.of(keyword)
+    )
+    waits = not (many or files or session.journal or session.memory or deck.user.used)
+    found = Comments(known, None if none else _accuracy_note(session, waits))
+    if not waits:
+        found.settle()
+    return found
+
+
+def _accuracy_note(session: Session, copied: bool) -> Callable[[], str] | None:
+    """What makes the note: of a copy of the rows, which their user may change, or of themselves."""
+    settings, counts, again = session.chosen.settings, session.counts, session.again
     system, routines = session.system, session.deck.user.used
+    model, outcome, history = session.kernels.model, session.outcome, session.history
     if not (system.dof or system.ns):
-        return ""
+        return None
+    ended, unknowns = Ended.of(system), system.nz
     few = not routines or counts.residuals < ROUTINE_CALLS
-    if session.again and session.outcome.is_requested and few:
-        options, factor = second_run(settings, counts, system.nz, history)
-        second = session.again(**options) if options else None
-        if second and second.outcome not in (session.outcome, Outcome.STEP_LIMIT):
-            second = None
-    note = accuracy_notes(system, settings, counts, history, second, factor)
-    grown = buckled(session.kernels.model, history)
-    return "; ".join(sentence for sentence in (grown, note) if sentence)
+    repeated = again if outcome.is_requested and few else None
+    history = history.copy() if copied else history
+
+    def note() -> str:
+        second, factor = None, 0.0
+        if repeated:
+            options, factor = second_run(settings, counts, unknowns, history)
+            second = repeated(**options) if options else None
+            if second and second.outcome not in (outcome, Outcome.STEP_LIMIT):
+                second = None
+        found = accuracy_notes(ended, settings, counts, history, second, factor)
+        grown = buckled(model, history)
+        return "; ".join(sentence for sentence in (grown, found) if sentence)
+
+    return note

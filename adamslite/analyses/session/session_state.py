@@ -141,6 +141,8 @@ class SessionState:
         self.analyses: list[tuple[str, float, int]] = []
         #: Carries out the same commands with other options, where that may be asked for.
         self.again: Callable[..., Results | None] | None = None
+        #: The limit of memory.
+        self.memory: int | None = None
 
     @property
     def deck(self) -> Deck:
