@@ -53,7 +53,7 @@ def watched(pace: float, suspicious: bool, C: OrderCap, top: float) -> float:
     if suspicious:
         order_cap.suspect(C, 5, 1e-4, 0.5e-4, 1e-4, order_cap.WINDOW)
     C.tries, C.travelled = order_cap.WINDOW, order_cap.WINDOW * pace
-    return order_cap.highest_order(C, top, 5.0, pace, 1.0)
+    return order_cap.highest_order(C, top, 5.0, 1.0)
 
 
 @pytest.fixture
@@ -72,6 +72,7 @@ def test_a_trial_that_pays_stays_while_it_pays(control):
     assert control.state == CAPPED
     assert watched(2e-4, False, control, 2.0) == 5.0
     assert control.state == WATCHING
+    assert control.rest == order_cap.PATIENCE
 
 
 def test_a_trial_in_vain_is_ended_and_not_repeated_soon(control):
@@ -81,6 +82,16 @@ def test_a_trial_in_vain_is_ended_and_not_repeated_soon(control):
     assert orders[-1] == 5.0
     assert control.state == WATCHING
     assert watched(1e-4, True, control, 5.0) == 5.0
+
+
+def test_trials_in_vain_are_repeated_after_a_bounded_wait(control):
+    assert watched(1e-4, False, control, 5.0) == 5.0
+    for _ in range(5):
+        control.rest = 0.0
+        assert watched(1e-4, True, control, 5.0) == 2.0
+        assert watched(1e-5, False, control, 2.0) == 5.0
+        assert watched(1e-4, False, control, 5.0) == 5.0
+    assert control.next_rest == order_cap.MOST_PATIENCE
 
 
 def test_a_hopeless_trial_ends_at_once(control):
@@ -126,14 +137,14 @@ def spun_beam(elements: int) -> str:
 
 
 @pytest.mark.numerical
-@pytest.mark.parametrize(("elements", "error"), [(10, 1e-4), (20, 1e-4), (15, 1e-3)])
-def test_the_vibration_of_a_beam_is_damped(elements: int, error: float) -> None:
-    """Orders to 5 fed a vibration of 1e4 rad/s, which steps of 1e-5 s followed."""
+@pytest.mark.parametrize(("elements", "error"), [(10, 1e-4), (10, 1e-5), (15, 1e-3)])
+def test_a_beam_is_tried_at_order_2_again(elements: int, error: float) -> None:
+    """Orders to 5 feed a vibration of 1e4 rad/s; without later trials: more than 100 000 steps."""
     deck = spun_beam(elements)
     found = done(deck, 8.0, 40, integrator="GSTIFF", error=error)
-    same = done(deck, 8.0, 40, integrator="RADAU", error=error)
     truth = done(deck, 8.0, 40, integrator="RADAU", error=1e-8)
-    assert found.summary["steps"] < 4 * same.summary["steps"]
+    assert found.summary["steps"] < 20_000
+    assert "feed a vibration of PART/" in found.meta["order"]
     for axis in "xy":
         name = f"PART/{elements + 2}.{axis}"
-        assert np.abs(found[name] - truth[name]).max() < 30 * error
+        assert np.abs(found[name] - truth[name]).max() < 60 * error

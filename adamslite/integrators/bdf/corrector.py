@@ -14,7 +14,7 @@ from adamslite.integrators.bdf.control import Control
 from adamslite.integrators.bdf.state import tests_velocities
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.implicit.formulation import equations_kept, is_stabilised
-from adamslite.integrators.implicit.tolerance import error_limit, weighted
+from adamslite.integrators.implicit.tolerance import error_limit
 from adamslite.integrators.linalg.blocks import solve
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import (
@@ -48,8 +48,6 @@ FELT = 1.0
 # Near a singular posture round-off keeps increments of velocities from shrinking further, to less
 # than this of the one before: with a new matrix this share of ERROR is as good as it gets.
 STALLED, STALL_SHARE = 0.5, 0.2
-# Rows of the history from here on are not in use at order 2.
-SCRATCH = 6
 # Increments that shrink by less than this do not converge within a reasonable number.
 SLOWEST = 0.9
 # The factored matrix is kept while its cu is within this ratio of the present one.
@@ -145,69 +143,6 @@ def is_small(C: Control, size: float, error: float, tolerance: float, iteration:
     if iteration > 1 and C.rate > STALLED and C.fresh and size <= STALL_SHARE * error:
         return True
     return remaining(C, size) <= tolerance
-
-
-@native
-def filter_error(P: Problem, L: Plan, C: Control) -> None:
-    """The error of the step over ERROR with stiff components filtered, into ``cap.filtered``.
-
-    One iteration with the factored matrix on the equations with psi + d / (k + 1) (compare Hairer,
-    Wanner, Solving ODE II, 1996, section IV.8): errors that stiff forces take back do not count.
-    """
-    n, ns, w, share = P.sizes.n, P.sizes.ns, C.width, 1.0 / (C.order + 1.0)
-    y, psi, e = P.history[SCRATCH * w :], P.trial[w:], P.trial[2 * w + n :]
-    change, si2 = P.history[(SCRATCH + 1) * w :], is_stabilised(P)
-    keep_end(P, C, y, change)
-    for i in range(w):
-        psi[i] += share * change[i]
-    motion_from_increments(P, C.cu, P.trial, psi, si2)
-    residual(P, equations_kept(P), P.F)
-    solve(L, P.LV, P.pivots, P.F, P.x, P.work)
-    scale_increment(P, 2.0 / (1.0 + C.cu / C.factored))
-    apply_increment(P, P.F, P.q, P.z, P.mu, si2)
-    for i in range(n):
-        e[i] -= P.F[i]
-    for k in range(P.sizes.nz):
-        P.x[k] = P.F[k]
-    motion_from_increments(P, C.cu, P.trial, psi, si2)
-    for i in range(w):
-        psi[i] -= share * change[i]
-    take_back(P, C, y, change)
-    motion_from_increments(P, C.cu, P.trial, psi, si2)
-    cap = C.cap
-    cap.filtered = weighted(change, y, n, ns, tests_velocities(P)) / P.settings.error
-
-
-@native
-def keep_end(P: Problem, C: Control, y: Reals, d: Reals) -> None:
-    """The end of the step, and what it differs by from the prediction."""
-    n, yp, e = P.sizes.n, P.trial[0:], P.trial[2 * C.width + P.sizes.n :]
-    first = P.sizes.m + P.sizes.nv
-    for i in range(n):
-        y[i], y[n + i] = P.q[i], P.u[i]
-        d[i], d[n + i] = e[i], P.u[i] - yp[n + i]
-    for k in range(2 * n, C.width):
-        y[k] = P.z[first + k - 2 * n]
-        d[k] = y[k] - yp[k]
-
-
-@native
-def take_back(P: Problem, C: Control, y: Reals, change: Reals) -> None:
-    """Undo the last increment, and leave what it changed."""
-    n, e = P.sizes.n, P.trial[2 * C.width + P.sizes.n :]
-    first = P.sizes.m + P.sizes.nv
-    for i in range(n):
-        change[i], change[n + i] = P.q[i] - y[i], P.u[i] - y[n + i]
-        P.q[i] = y[i]
-        e[i] += P.x[i]
-    for k in range(2 * n, C.width):
-        change[k] = P.z[first + k - 2 * n] - y[k]
-    rest = first + P.sizes.ns
-    for k in range(rest):
-        P.z[k] += P.x[n + k]
-    if is_stabilised(P):
-        for k in range(P.sizes.holonomic):
-            P.mu[k] += P.x[n + rest + k]
 
 
 @native

@@ -22,17 +22,17 @@ from __future__ import annotations
 from adamslite.integrators.accelerations import accelerations
 from adamslite.integrators.audit.balance import audit
 from adamslite.integrators.bdf.control import Control
-from adamslite.integrators.bdf.corrector import correct, filter_error
+from adamslite.integrators.bdf.corrector import correct
 from adamslite.integrators.bdf.dense_output import record
 from adamslite.integrators.bdf.differences import extend_history, rebase
 from adamslite.integrators.bdf.events import end_at_crossing, pass_on, passes_crossing
 from adamslite.integrators.bdf.order import (
     choose_order,
-    is_filtered,
     local_error,
-    start_orders,
+    most_order,
     watch_order,
 )
+from adamslite.integrators.bdf.order_cap import start_watch
 from adamslite.integrators.bdf.prediction import predict
 from adamslite.integrators.bdf.recovery import (
     after_failure,
@@ -105,10 +105,11 @@ def begin(P: Problem, L: Plan, C: Control) -> int:
     """Accelerations at the start, history of order 1, first record."""
     C[:] = 0
     P.undoing[:] = 0
-    C.t, C.rate, C.blamed = P.settings.t, 1.0, NOBODY
-    C.width = 2 * P.sizes.n + P.sizes.ns
-    start_orders(P, C)
-    P.report.floor = 0.0
+    C.t, C.rate, C.order, C.blamed = P.settings.t, 1.0, 1, NOBODY
+    C.caution = 1.0
+    C.width, C.highest = 2 * P.sizes.n + P.sizes.ns, most_order(P)
+    start_watch(C.cap)
+    P.report.order_capped, P.report.floor = False, 0.0
     start_events(P, True, tests_velocities(P))
     started = accelerations(P, L, C.t, P.q, P.u, P.a, P.z, P.rd)
     hold_watch(P)
@@ -138,11 +139,7 @@ def advance(P: Problem, L: Plan, C: Control) -> int:
     predict(P, C)
     if not correct(P, L, C):
         return after_failure(P, C)
-    if is_filtered(C):
-        filter_error(P, L, C)
     norm = local_error(P, C)
-    if C.cap.outdated:
-        return after_failure(P, C)
     if not is_allowed(norm, P.settings.fixed_step):
         return after_rejection(P, C, norm)
     if passed_singularity(P, L, C):

@@ -9,22 +9,14 @@ from __future__ import annotations
 
 from adamslite.integrators.bdf.control import Control
 from adamslite.integrators.bdf.history import MAX_ORDER
-from adamslite.integrators.bdf.order_cap import (
-    CAPPED,
-    DUE,
-    TRIAL_WINDOWS,
-    highest_order,
-    note_vibration,
-    start_watch,
-    suspect,
-)
+from adamslite.integrators.bdf.order_cap import CAPPED, highest_order, suspect
 from adamslite.integrators.bdf.state import resize, tests_velocities
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.events.stops import longest_step
 from adamslite.integrators.implicit.step_size import step_ratio
 from adamslite.integrators.implicit.tolerance import beyond_round_off, most_wrong, weighted
 from adamslite.integrators.stepping.step_size import LONGER, cut
-from adamslite.native.translate import native, rare
+from adamslite.native.translate import native
 
 # The next step aims at an estimated error below ERROR by these factors (at a higher order: more
 # caution).
@@ -35,19 +27,8 @@ CAUTIOUS = 1.5
 # Past values on a cubic have no D_4.  What it will be is this many times the first d behind them:
 # order 3 makes 11/6 d/h up for h^3 y''''/6, the change of y' that the cubic does not have.
 CUBIC_PAST = 11.0
-# A vibration below this share of the largest velocity is damped by steps of order 1 that turn it by
-# so many radians.  The error allowed falls by the last factor from each of them to the next.
-SMALL, DAMPING, DAMPED = 0.1, 4.0, 0.5
-# A filtered error is at least this share of what it is without the filter.
-UNFILTERED = 0.01
-# Velocities of coordinates that stiff forces pin err by h^2/3 times the jerk at order 2.  That does
-# not add up, and d does not see it unless the step changes.  Steps are chosen by this share of it,
-# and change it by this much of ERROR at once.
-PINNED, JUMP = 0.1, 0.5
 # A step changes only when that pays for a new matrix, and never grows by more than this at once.
 LEAST_GROWTH, LEAST_SHRINK, MOST_GROWTH = 1.2, 0.9, 10.0
-# ... or, where the error is filtered, than this power of these factors.
-GRADUAL = 0.2
 # Steps that double again and again amplify the noise of higher orders.
 GROWING_ORDER = 3.0
 
@@ -62,7 +43,7 @@ def difference(P: Problem, C: Control, row: int) -> float:
 @native
 def local_error(P: Problem, C: Control) -> float:
     """Estimated error over ERROR; leaves d in psi's place and y in the prediction's."""
-    n, ns, w, cap = P.sizes.n, P.sizes.ns, C.width, C.cap
+    n, ns, w = P.sizes.n, P.sizes.ns, C.width
     first = P.sizes.m + P.sizes.nv
     y, d, e = P.trial[0:], P.trial[w:], P.trial[2 * w + n :]
     for i in range(n):
@@ -71,27 +52,17 @@ def local_error(P: Problem, C: Control) -> float:
     for i in range(2 * n, w):
         d[i] = P.z[first + i - 2 * n] - y[i]
         y[i] = P.z[first + i - 2 * n]
+    cap = C.cap
     cap.tries += 1.0
     tested = tests_velocities(P)
     size = weighted(d, y, n, ns, tested)
     P.report.where = most_wrong(size, d, y, n, ns, tested)
     share = CUBIC_PAST if C.order == 3 and C.h_last == 0.0 else 1.0
     norm = share * size / ((C.order + 1.0) * P.settings.error)
-    cap.outdated = False
-    if is_filtered(C) and cap.filtered < norm:
-        cap.outdated = norm > 1.0 and not C.fresh
-        norm = max(cap.filtered, UNFILTERED * norm)
-    norm /= max(1.0, cap.loose)
     if norm > 1.0:
         norm = beyond_round_off(P, norm, P.q, C.cu)
     P.report.error = norm
     return norm
-
-
-@native
-def is_filtered(C: Control) -> bool:
-    """Whether stiff vibrations are filtered out of the error of a step of order 2."""
-    return C.cap.filters and C.order == C.highest
 
 
 @native
@@ -101,21 +72,8 @@ def choose_order(P: Problem, C: Control, norm: float) -> None:
         approach_fixed_step(P, C)
     elif C.order > C.highest:
         drop_order(P, C)
-    elif C.cap.loose == DUE:
-        start_damping(P, C)
-    elif C.cap.loose > 1.0:
-        keep_damping(C)
     elif C.equal > C.order:
         take_longest_step(P, C, norm)
-
-
-@native
-@rare
-def start_orders(P: Problem, C: Control) -> None:
-    """Order 1, and all orders allowed."""
-    C.order, C.caution, C.highest = 1, 1.0, most_order(P)
-    start_watch(C.cap)
-    P.report.order_capped = False
 
 
 @native
@@ -123,41 +81,14 @@ def watch_order(P: Problem, C: Control) -> None:
     """After an accepted step: the highest order from now on."""
     cap = C.cap
     cap.travelled += C.h
-    C.highest = highest_order(cap, C.highest, most_order(P), C.h, P.settings.h_max)
+    C.highest = highest_order(cap, C.highest, most_order(P), P.settings.h_max)
     P.report.order_capped = cap.state == CAPPED
-    P.report.vibrating, P.report.vibration = cap.where, cap.rate
 
 
 @native
 def most_order(P: Problem) -> int:
     """KMAX, as far as there are formulas."""
     return min(MAX_ORDER, P.settings.k_max)
-
-
-@native
-def start_damping(P: Problem, C: Control) -> None:
-    """To order 1, and longer steps, until a vibration that is small against the motion is damped:
-    each step keeps 1/(1 + (h omega)^2)^(1/2) of it.
-    """
-    cap, n, fastest = C.cap, P.sizes.n, 0.0
-    for i in range(n, 2 * n):
-        fastest = max(fastest, abs(P.history[i]))
-    speed = cap.amplitude if tests_velocities(P) else cap.amplitude * cap.rate
-    step = min(longest_step(P), DAMPING / cap.rate)
-    if step < 2.0 * C.h or speed > SMALL * fastest / max(1.0, fastest):
-        cap.loose, cap.filters, cap.windows = 0.0, False, TRIAL_WINDOWS
-        return
-    cap.loose, C.order = DAMPING * cap.amplitude / P.settings.error, 1
-    resize(P, C, step / C.h)
-
-
-@native
-def keep_damping(C: Control) -> None:
-    """After a step that damps: order 2 as soon as there is a history for it."""
-    cap = C.cap
-    cap.loose *= DAMPED
-    if C.order < C.highest and C.equal > C.order:
-        C.order += 1
 
 
 @native
@@ -193,16 +124,13 @@ def take_longest_step(P: Problem, C: Control, norm: float) -> None:
     "largest step" would always pick the lowest.
     """
     k, tol, room = C.order, P.settings.error, longest_step(P) / C.h
-    cap = C.cap
-    filtered = cap.filtered if is_filtered(C) else 0.0
-    same = step_ratio(SAFETY * C.caution * max(norm, PINNED * filtered), k)
+    same = step_ratio(SAFETY * C.caution * norm, k)
     best, factor = k, same
-    if k > 1 and not is_filtered(C):
+    if k > 1:
         low = difference(P, C, k)
         high = norm * (k + 1) * tol
-        amplitude = suspect(cap, k, low, high, tol, C.equal)
-        if amplitude > 0.0:
-            note_vibration(cap, amplitude, high / (low * C.h), P.report.where)
+        if suspect(C.cap, k, low, high, tol, C.equal):
+            P.report.vibrating, P.report.vibration = P.report.where, high / (low * C.h)
         f = step_ratio(SAFETY * C.caution * low / (k * tol), k - 1)
         if f > factor and min(f, same) < room:
             best, factor = k - 1, f
@@ -213,10 +141,7 @@ def take_longest_step(P: Problem, C: Control, norm: float) -> None:
             best, factor = k + 1, f
     if best <= k:
         C.caution = 1.0
-    factor, change = min(factor, min(room, MOST_GROWTH)), 1.0
-    if filtered > 0.0:
-        factor = min(factor, (1.0 + JUMP / filtered) ** 0.5)
-        change = GRADUAL
-    if best != k or factor >= LEAST_GROWTH**change or factor < LEAST_SHRINK**change:
+    factor = min(factor, min(room, MOST_GROWTH))
+    if best != k or factor >= LEAST_GROWTH or factor < LEAST_SHRINK:
         C.order = best
         resize(P, C, cut(P, C, factor))

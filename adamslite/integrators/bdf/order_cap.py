@@ -9,10 +9,7 @@ Order 2 damps it.  Seen on the differences, with r = |D_(k+1)| / |D_k| at order 
 
 When that is small in a whole window of steps, order 2 is tried for some windows.  Its steps
 decide: if they get clearly longer than before, the cap stays; if not, it is lifted, and the next
-trial is further away.
-
-Short steps of order 2 follow a vibration for long.  Where steps stay short, a few long ones damp
-it, which begin with order 1.  From then on stiff components are filtered out of the error test.
+trial is longer and further away.
 References: Hairer, Wanner, Solving ODEs II, 1996, section V.1 (stability of BDF); Hindmarsh,
 Avoiding BDF stability barriers, LLNL UCRL-ID-120480, 1995 (the same trouble, seen by other signs).
 """
@@ -31,20 +28,17 @@ SUSPECT_SHARE, REJECTED_SHARE = 0.8, 0.14
 STILL_PAYS = 4.0
 # Steps that still grow, as after a start, are not held by anything.
 STEADY = 1.5
-# Windows of a trial; it has paid when a window covers this many times as much time as before.
-TRIAL_WINDOWS, PAYS = 14.0, 8.0
+# Windows of the first trial, and of later ones; a trial has paid when a window covers this many
+# times as much time as before.
+TRIAL_WINDOWS, LATER_WINDOWS, PAYS = 14.0, 56.0, 8.0
 # No trial when steps are longer than HMAX over this: there is too little to win.
 ROOM = 20.0
 # A trial that goes this much slower ends at once.
 HOPELESS = 0.3
-# Windows after which steps must be so many times as long, or the vibration is damped.
-PATIENT, SLOW = 2.0, 2.0
 # Tries until the next trial; after each trial in vain as many times more, up to a number.
 PATIENCE, MORE_PATIENCE, MOST_PATIENCE = 500.0, 4.0, 8000.0
 
 WATCHING, TRYING, CAPPED = 0.0, 1.0, 2.0
-# ``loose`` before the first step that damps.
-DUE = -1.0
 
 
 class OrderCap(Record):
@@ -52,11 +46,7 @@ class OrderCap(Record):
 
     ``tries`` of steps, ``travelled``: the time that they took the run on, ``suspect`` steps among
     them, ``bad``: rejections; ``pace``: time per try before the trial, ``windows`` of the trial,
-    ``rest``: tries until the next one, ``next_rest`` after that; of a vibration ``rate``
-    [rad/time], ``amplitude`` and ``where`` it is; ``least``: step before the
-    trial; ``loose``: times ERROR that steps may err while it is damped; ``filters`` errors;
-    ``filtered``: error of the present try without stiff components; ``outdated``: an earlier
-    step's matrix has made it small.
+    ``rest``: tries until the next one, ``next_rest`` after that.
     """
 
     state: float
@@ -68,14 +58,6 @@ class OrderCap(Record):
     windows: float
     rest: float
     next_rest: float
-    rate: float
-    amplitude: float
-    where: int
-    least: float
-    loose: float
-    filters: bool
-    filtered: float
-    outdated: bool
 
 
 @native
@@ -88,48 +70,36 @@ def start_watch(C: OrderCap) -> None:
 @native
 def forget_window(C: OrderCap) -> None:
     """A new window of tries begins."""
-    C.tries, C.travelled, C.suspect, C.bad, C.amplitude = 0.0, 0.0, 0.0, 0.0, 0.0
+    C.tries, C.travelled, C.suspect, C.bad = 0.0, 0.0, 0.0, 0.0
 
 
 @native
-def suspect(C: OrderCap, order: int, low: float, high: float, error: float, steps: float) -> float:
-    """Judge by |D_k| and |D_(k+1)| what set the last ``steps`` steps; the amplitude of a vibration
-    that the formula may feed, else zero.
-    """
+def suspect(C: OrderCap, order: int, low: float, high: float, error: float, steps: float) -> bool:
+    """Whether |D_k| and |D_(k+1)| say that the formula fed what set the last ``steps`` steps."""
     if order < 3 or not (low > 0.0 and high > 0.0):
-        return 0.0
-    amplitude = high * (low / high) ** (order + 1.0)
-    if not amplitude < SUSPECT_AMPLITUDE * error:
-        return 0.0
-    C.suspect += steps
-    return amplitude
+        return False
+    suspected = high * (low / high) ** (order + 1.0) < SUSPECT_AMPLITUDE * error
+    if suspected:
+        C.suspect += steps
+    return suspected
 
 
 @native
-def note_vibration(C: OrderCap, amplitude: float, rate: float, where: int) -> None:
-    """The largest amplitude and the lowest rate of a window."""
-    C.rate = min(C.rate, rate) if C.amplitude > 0.0 else rate
-    if amplitude > C.amplitude:
-        C.amplitude, C.where = amplitude, where
-
-
-@native
-def highest_order(C: OrderCap, top: int, most: int, h: float, h_max: float) -> int:
-    """The highest order from now on, after an accepted step ``h``; ``top`` is that until now."""
+def highest_order(C: OrderCap, top: int, most: int, h_max: float) -> int:
+    """The highest order from now on, after an accepted step; ``top`` is that until now."""
     if C.tries < WINDOW:
         return top
-    pace, tries, amplitude = C.travelled / C.tries, C.tries, C.amplitude
+    pace, tries = C.travelled / C.tries, C.tries
     suspected = C.suspect >= SUSPECT_SHARE * WINDOW or C.bad >= REJECTED_SHARE * WINDOW
     forget_window(C)
     if C.state != WATCHING:
-        C.amplitude = amplitude
         return after_window(C, pace, most)
     growing = pace > STEADY * C.pace
     C.pace = pace
     C.rest -= tries
     if growing or C.rest > 0.0 or pace * ROOM > h_max or not suspected:
         return top
-    C.state, C.windows, C.amplitude, C.least, C.filters = TRYING, 0.0, amplitude, h, False
+    C.state, C.windows = TRYING, 0.0
     return 2
 
 
@@ -141,20 +111,11 @@ def after_window(C: OrderCap, pace: float, most: int) -> int:
         C.state = CAPPED
     if C.state == CAPPED and pace > STILL_PAYS * C.pace:
         return 2
-    if C.state == TRYING and is_slow(C, pace):
-        C.filters, C.loose, C.windows, C.pace = True, DUE, 0.0, min(C.pace, C.least)
+    windows = TRIAL_WINDOWS if C.next_rest == PATIENCE else LATER_WINDOWS
+    if C.state == TRYING and C.windows < windows and pace > HOPELESS * C.pace:
         return 2
-    if C.state == TRYING and C.windows < TRIAL_WINDOWS and pace > HOPELESS * C.pace:
-        return 2
-    C.rest, C.next_rest = C.next_rest, min(MOST_PATIENCE, C.next_rest * MORE_PATIENCE)
-    if C.state == CAPPED and C.filters:
-        C.rest = PATIENCE
-    C.state, C.loose, C.filters = WATCHING, 0.0, False
+    if C.state == CAPPED:
+        C.next_rest = PATIENCE
+    C.state, C.rest = WATCHING, C.next_rest
+    C.next_rest = min(MOST_PATIENCE, C.next_rest * MORE_PATIENCE)
     return most
-
-
-@native
-def is_slow(C: OrderCap, pace: float) -> bool:
-    """Whether order 2 follows a vibration that could be damped, not for the first time."""
-    slow = pace < HOPELESS * C.pace or (C.windows >= PATIENT and pace < SLOW * C.pace)
-    return slow and not C.filters and C.amplitude > 0.0 and C.next_rest > PATIENCE

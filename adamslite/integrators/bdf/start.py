@@ -45,8 +45,7 @@ GENTLE = 10.0
 @native
 def start_history(P: Problem, L: Plan, C: Control) -> None:
     """Order, step and history at the accepted state (q, u, ra, rz, rd)."""
-    guess, cap = first_step(P), C.cap
-    cap.loose = 0.0
+    guess = first_step(P)
     change = jerk(P, L, C.t, LOOK_AHEAD * guess)
     C.order, C.h = 1, guess
     if change > 0.0:
