@@ -99,11 +99,11 @@ def growing(n: int, full: bool = False) -> str:
 
 
 def pushed(n: int) -> str:
-    """The chain, with one load that changes its law in time and one that is a table."""
+    """The chain, with one load that changes its law in time and one that is a table of it."""
     return chain(n) + (
         "SPLINE/1, X=0,1,2,5,50, Y=0,1,0,3,30\n"
         "SFORCE/900, TRANSLATIONAL, I=9, J=9000, FUNCTION=STEP(TIME,0.1,0,0.11,10)\n"
-        "SFORCE/901, TRANSLATIONAL, I=15, J=14, FUNCTION=-CUBSPL(DM(15,14),0,1)\n"
+        "SFORCE/901, TRANSLATIONAL, I=15, J=14, FUNCTION=-CUBSPL(TIME,0,1)\n"
     )
 
 

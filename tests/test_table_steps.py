@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from adamslite import Outcome, Results, simulate
+from adamslite.errors import UsageError
 from adamslite.symbolic.interpolant import interpolant, reach
 
 KINDS = {"AKISPL": "akima", "CUBSPL": "natural", "INTERP": "linear"}
@@ -89,6 +90,12 @@ def test_no_spike_of_a_table_is_passed(function, method, error, off) -> None:
     rng = np.random.default_rng(31)
     for _ in range(10):
         assert passed(function, rng, integrator=method, error=error)[1] < off
+
+
+@pytest.mark.parametrize("function", KINDS)
+def test_equal_steps_reject_tables_of_the_state(function) -> None:
+    with pytest.raises(UsageError, match="rises within a zone .*a table"):
+        passed(function, np.random.default_rng(31), integrator="VERLET", error=1e-3)
 
 
 @pytest.mark.numerical

@@ -33,7 +33,7 @@ from adamslite.integrators import contract
 from adamslite.integrators.contract import SPECTRUM
 from adamslite.language.method import AUTO, CONSTRAINTS, ROTATIONS, STATE_JUMPS, methods
 from adamslite.model.model import PART, NodeKey
-from adamslite.symbolic.guards import JUMPS, POLE, ROOT
+from adamslite.symbolic.guards import FLOOR, JUMPS, POLE, ROOT
 
 if TYPE_CHECKING:
     from adamslite.analyses.dynamics.dynamic import Settings
@@ -160,18 +160,19 @@ def _turning(system: System) -> bool:
 
 def what_changes(system: System, error: float) -> str:
     """A force that equal steps may pass without having felt it, or feel for a step too long: one
-    that may jump with the state, unless ERROR is rough, or rises within a zone.
+    that may jump with the state, unless ERROR is rough, or rises within a zone or a table.
     """
     jumping = [s for s, kind in system.guarded["watch"] if kind >= JUMPS and error < ROUGH]
-    rising = [s for s, kind in system.guarded["zone"] if 0 <= kind not in (POLE, ROOT)]
+    rising = [s for s, kind in system.guarded["zone"] if kind not in (POLE, ROOT)]
+    rising += [s for s, kind in system.guarded["watch"] if kind == FLOOR]
     if jumping:
         return (
             f"{jumping[0].label} may jump with the state (IF, SIGN), and equal steps look past that"
         )
     if rising:
         return (
-            f"{rising[0].label} rises within a zone (STEP, IMPACT, TANH), and equal steps may "
-            "skip that"
+            f"{rising[0].label} rises within a zone (STEP, IMPACT, TANH, MOD, a table), and equal "
+            "steps may skip that"
         )
     return ""
 
@@ -225,8 +226,6 @@ def _picked(system: System, times: np.ndarray, error: float) -> tuple[str, ...]:
         return "HHT" if error >= COARSE and not tied else implicit, f"implicit, because {reason}"
     unfit = tied or what_turns(system) or what_changes(system, 0.0)
     few = meeting and len(system.guarded["watch"]) <= FEW_GUARDS
-    if error >= COARSE and not (
-        unfit or few or system.numbering.sensors or system.numbering.reaches
-    ):
+    if error >= COARSE and not (unfit or few or system.numbering.sensors or system.guarded["zone"]):
         return "VERLET", f"explicit, because nothing ties the masses together and {reason}"
     return "RKF45", f"explicit, because {reason}", "RADAU" if meeting else ""

@@ -4,8 +4,8 @@ With pi_j = prod_{m=0..j-1} (x + m)/(m + 1), at the share x of the tried step,
 
     y = sum_{j=0..k} D_j pi_j + d pi_k
 
-goes through the new value and k past ones; accelerations, multipliers and variables in between are
-taken from a straight line, for guards that depend on them.  Behind the step that has been accepted
+goes through the new value and k past ones; for guards accelerations in between are the slope of the
+cubic through velocities, multipliers and variables a straight line.  Behind the step that has been accepted
 the differences contain d.
 """
 
@@ -68,7 +68,8 @@ def put_between(P: Problem, C: Control, x: float) -> None:
     for i in range(w):
         y[i] += p * d[i]
     for i in range(n):
-        a[i] = P.ra[i] + x * (P.a[i] - P.ra[i])
+        bend = 6.0 * (P.u[i] - D[n + i]) / C.h - 3.0 * (P.ra[i] + P.a[i])
+        a[i] = P.ra[i] + x * (P.a[i] - P.ra[i] + (1.0 - x) * bend)
     for i in range(first):
         z[i] = P.rz[i] + x * (P.z[i] - P.rz[i])
     for i in range(ns):

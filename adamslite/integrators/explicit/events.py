@@ -70,7 +70,8 @@ def end_at_crossing(P: Problem, L: Plan, C: Control) -> int:
 @native
 def put_cubic(P: Problem, C: Control) -> None:
     """The tried step at the share of the search into the workspace, by the cubic through both ends
-    and their rates, with straight lines for accelerations, multipliers and variables.
+    and their rates, with the slope of that of velocities for accelerations, and straight lines for
+    multipliers and variables.
     """
     n, ns, first, width = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv, C.width
     w, h, x = 2 * n + ns, C.h, P.search.share
@@ -86,7 +87,8 @@ def put_cubic(P: Problem, C: Control) -> None:
     for i in range(w - width):
         y[i] += w0 * y0[width + i] + w1 * y1[width + i]
     for i in range(n):
-        a[i] = P.ra[i] + x * (P.a[i] - P.ra[i])
+        bend = 6.0 * (y1[n + i] - y0[n + i]) / h - 3.0 * (P.ra[i] + P.a[i])
+        a[i] = P.ra[i] + x * (P.a[i] - P.ra[i] + (1.0 - x) * bend)
     for k in range(first):
         z[k] = P.rz[k] + x * (P.z[k] - P.rz[k])
     for k in range(ns):

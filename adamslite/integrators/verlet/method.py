@@ -56,14 +56,15 @@ from adamslite.integrators.verlet.sampling import (
     leave,
     local_error,
     note_steps,
+    passes_pole,
     steps_per_estimate,
 )
 from adamslite.native.translate import Reals, native, rare
 
 # Turns of the search for an eigenvalue from the vector found before, where laws are smooth.
 POWERS_AGAIN = 8
-# Intervals with fewer steps than this are not worth a new look at the eigenvalues each; a look
-# costs as much as 75 steps of the quickest kind, which are those that follow smooth laws.
+# Intervals with fewer steps than this are not worth a new look at the eigenvalues each, which costs
+# as much as 75 steps of the quickest kind: those that follow smooth laws.
 WORTH, WORTH_SMOOTH = 200, 1000
 SHRINK, GROW = 0.25, 2.0
 # A law may have changed where the local error comes to this many times its mean, and where the
@@ -83,8 +84,7 @@ LEAST = 1e-8
 WHOLE = 1e-9
 # Steps that take less than a try of a step by other methods.
 STEPS_PER_TRY = 32
-# Tries of one interval that may blow up: steps 4^8 times as short take every jump of a stiffness
-# that a run can be meant to have; what still blows up has no value there, with any step.
+# Tries of one interval that may blow up: steps 4^8 times as short take any jump of a stiffness.
 MOST_BLOWN = 8
 
 
@@ -361,6 +361,7 @@ def begin_steps(P: Problem, C: Control, t: float) -> int:
     if first == 0:
         C.top, C.spent = 0.0, 0.0
         put_free(P, t, P.q, P.u)
+        passes_pole(P)
     return first
 
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
+from adamslite.integrators.event_rows import POLE
 from adamslite.integrators.linalg.norms import exceeds
 from adamslite.integrators.linalg.plan import HUGE
+from adamslite.integrators.motion_equations import WATCH, guard_values
 from adamslite.integrators.verlet.control import Control
 from adamslite.native.translate import native, rare
 
@@ -25,7 +27,7 @@ def steps_per_estimate(P: Problem, C: Control, h: float) -> int:
     """Steps from one look at the local error to the next."""
     if C.fixed:
         return FIXED_SAMPLE
-    return SAMPLE if P.sizes.watched == 0 and 2.0 * h > C.limit else 1
+    return SAMPLE if P.sizes.watched + P.sizes.zones == 0 and 2.0 * h > C.limit else 1
 
 
 @native
@@ -41,7 +43,24 @@ def local_error(P: Problem, h: float) -> float:
                 top = change / weight
     if not top < LARGE:
         return HUGE
+    if P.sizes.zones > 0 and passes_pole(P):
+        return LARGE
     return top * h * h / (6.0 * P.settings.error)
+
+
+@native
+def passes_pole(P: Problem) -> bool:
+    """Whether a pole has changed since the last look by more than a share of its value nearer to
+    zero, as it does where it is passed; keeps the present values.
+    """
+    first, found = P.sizes.nw + P.sizes.clocks + P.sizes.watched, False
+    guard_values(P, WATCH)
+    for k in range(P.sizes.zones):
+        old, new = P.zone[k], P.guard[first + k]
+        if P.kind[first - P.sizes.nw + k] == POLE:
+            found = found or abs(new - old) > P.search.span * min(abs(new), abs(old))
+        P.zone[k] = new
+    return found
 
 
 @native
