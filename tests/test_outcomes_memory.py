@@ -15,6 +15,7 @@ from scenes import GROUND, done, run
 
 import adamslite as al
 from adamslite import Outcome, machine
+from adamslite.analyses import simulation
 from adamslite.analyses.dynamics import history
 from adamslite.analyses.session import session, session_state
 from adamslite.analyses.setup import run_size
@@ -62,7 +63,10 @@ SENSED = POINT.replace("END", "SENSOR/1, FUNCTION=DX(2,1)\\ VALUE=0.5, GE, PRINT
 def test_the_estimate_is_what_a_run_takes(
     deck: str, analyses: int, outputs: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Within a third, and not less."""
+    """Within a third, and not less; of so many numbers there is no second run if they are estimated
+    at all, and one that gets no memory is left out.
+    """
+    monkeypatch.setattr("adamslite.analyses.simulation._attempted", lambda *_, **__: None)
     found: list[int] = []
     monkeypatch.setattr(run_size, "_need", lambda what, need, *_: found.append(need))
     monkeypatch.setattr("adamslite.analyses.setup.output_times.SMALL", 0)
@@ -375,3 +379,22 @@ def test_a_container_has_what_its_group_leaves(
     monkeypatch.setattr(machine, "GROUPS", tmp_path)
     assert machine._of_group() == 5_000_000
     assert machine.free_memory() == 5_000_000
+
+
+@pytest.mark.parametrize("memory", [None, "100GB"])
+def test_a_second_run_without_memory_is_left_out(
+    memory: str | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The results of the first one stay."""
+    begun, room = [], simulation.need_room
+
+    def need_room(*arguments: Any, **options: Any) -> None:
+        begun.append(arguments)
+        if len(begun) > 1:
+            raise MemoryError
+        room(*arguments, **options)
+
+    monkeypatch.setattr(simulation, "need_room", need_room)
+    options = {"integrator": "GSTIFF", "error": 1e-5, "memory_limit": memory}
+    results = al.simulate(al.read(POINT), end=1.0, steps=100, **options)
+    assert results.success and dict(results.meta)["deck"] and len(begun) == 2

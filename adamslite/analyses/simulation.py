@@ -146,10 +146,10 @@ def simulate(
 
 
 def _attempted(*arguments: Any, **options: Any) -> Results | None:
-    """The results of `simulate`; None where there are none."""
+    """The results of `simulate`; None where there are none, as without memory."""
     try:
         return simulate(*arguments, **options)
-    except UsageError:
+    except (UsageError, RunFailed):
         return None
 
 
