@@ -137,14 +137,12 @@ def spun_beam(elements: int) -> str:
 
 
 @pytest.mark.numerical
-@pytest.mark.parametrize(("elements", "error"), [(10, 1e-4), (10, 1e-5), (15, 1e-3)])
-def test_a_beam_is_tried_at_order_2_again(elements: int, error: float) -> None:
-    """Orders to 5 feed a vibration of 1e4 rad/s; without later trials: more than 100 000 steps."""
-    deck = spun_beam(elements)
-    found = done(deck, 8.0, 40, integrator="GSTIFF", error=error)
+def test_the_note_names_the_vibration_of_a_beam() -> None:
+    """Order 2 takes 3008 steps, and the note says what orders to 5 feed."""
+    deck = spun_beam(20)
+    found = done(deck, 8.0, 40, integrator="GSTIFF", error=1e-4)
     truth = done(deck, 8.0, 40, integrator="RADAU", error=1e-8)
-    assert found.summary["steps"] < 20_000
+    assert found.summary["steps"] < 6000
     assert "feed a vibration of PART/" in found.meta["order"]
     for axis in "xy":
-        name = f"PART/{elements + 2}.{axis}"
-        assert np.abs(found[name] - truth[name]).max() < 60 * error
+        assert np.abs(found[f"PART/22.{axis}"] - truth[f"PART/22.{axis}"]).max() < 60e-4

@@ -9,7 +9,7 @@ Order 2 damps it.  Seen on the differences, with r = |D_(k+1)| / |D_k| at order 
 
 When that is small in a whole window of steps, order 2 is tried for some windows.  Its steps
 decide: if they get clearly longer than before, the cap stays; if not, it is lifted, and the next
-trial is longer and further away.
+trial is further away.
 References: Hairer, Wanner, Solving ODEs II, 1996, section V.1 (stability of BDF); Hindmarsh,
 Avoiding BDF stability barriers, LLNL UCRL-ID-120480, 1995 (the same trouble, seen by other signs).
 """
@@ -28,9 +28,8 @@ SUSPECT_SHARE, REJECTED_SHARE = 0.8, 0.14
 STILL_PAYS = 4.0
 # Steps that still grow, as after a start, are not held by anything.
 STEADY = 1.5
-# Windows of the first trial, and of later ones; a trial has paid when a window covers this many
-# times as much time as before.
-TRIAL_WINDOWS, LATER_WINDOWS, PAYS = 14.0, 56.0, 8.0
+# Windows of a trial; it has paid when a window covers this many times as much time as before.
+TRIAL_WINDOWS, PAYS = 14.0, 8.0
 # No trial when steps are longer than HMAX over this: there is too little to win.
 ROOM = 20.0
 # A trial that goes this much slower ends at once.
@@ -111,8 +110,7 @@ def after_window(C: OrderCap, pace: float, most: int) -> int:
         C.state = CAPPED
     if C.state == CAPPED and pace > STILL_PAYS * C.pace:
         return 2
-    windows = TRIAL_WINDOWS if C.next_rest == PATIENCE else LATER_WINDOWS
-    if C.state == TRYING and C.windows < windows and pace > HOPELESS * C.pace:
+    if C.state == TRYING and C.windows < TRIAL_WINDOWS and pace > HOPELESS * C.pace:
         return 2
     if C.state == CAPPED:
         C.next_rest = PATIENCE
