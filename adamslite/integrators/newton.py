@@ -26,6 +26,8 @@ ROUND_OFF = 2e-15
 # An older matrix serves while inertia alone would make no more than this many times ERROR of the
 # residual that is left, and the residual shrinks by this share.
 MOST_FELT, SHRUNK = 3.0, 0.3
+# Share of ERROR that round-off may make of a residual; an inertia for which it is more counts more.
+UNFELT = 1e-5
 # The matrix is renewed where this residual stays above this share of the one before.
 SHRINKING = 0.5
 
@@ -156,11 +158,18 @@ def increment_norm(P: Problem, dz: Reals, cu: float, tied: bool) -> float:
 def weigh_residuals(P: Problem, cq: float, cv: float) -> None:
     """What a unit residual changes if inertia alone resists it, cq/m of positions and cv/m of
     velocities against max(1, |value|), the larger of both, into ``P.ease``.
+
+    The last digits of positions make loads of the bodies that constraints tie together, which are
+    not to count more than ``UNFELT`` of ERROR for a part that is all but a point.
     """
-    q, u, mobility, ease = P.q, P.u, P.mobility, P.ease
-    for i in range(P.sizes.n):
+    q, u, n, mobility, ease = P.q, P.u, P.sizes.n, P.mobility, P.ease
+    reach = 1.0
+    for i in range(n):
+        reach = maximum(reach, abs(q[i]))
+    coarse = UNFELT * P.settings.error / (ROUND_OFF * reach)
+    for i in range(n):
         x, v = max(1.0, abs(q[i])), max(1.0, abs(u[i]))
-        ease[i] = mobility[i] * max(cq * v, cv * x) / (x * v)
+        ease[i] = min(mobility[i], coarse * mobility[n + i]) * max(cq * v, cv * x) / (x * v)
 
 
 @native

@@ -18,6 +18,8 @@ EXACT = 1e4
 # A radian counts as this share of the model's size: what is drawn roughly is off by a tenth of that
 # and by 20 degrees.
 ROUGH = 0.1 / np.deg2rad(20.0)
+# Passes over constraints in which masses that are tied become known; mobility of what is not held.
+SWEEPS, UNTIED = 2, 1e300
 # What has no mass follows what has: it carries no state of its own worth keeping.
 MASSLESS = 1e-4
 # A moment of inertia below this share of the largest of its part is none.
@@ -37,25 +39,47 @@ def rotation_weights(model: Model) -> np.ndarray:
     trace = np.trace(inertia, axis1=1, axis2=2)
     known = (trace > 0.0) & (mass > 0.0)
     square = np.divide(trace, mass, out=np.ones(mass.size), where=known)
-    ends = [getattr(each, name, None) for each in model.constraints for name in ("i", "j")]
-    for place in (model.marker(end) for end in ends if end is not None):
-        if place is not None and place.body >= 0 and known[place.body]:
-            square[place.body] = max(square[place.body], LEVER**2 * float(place.p @ place.p))
+    square[known] = np.maximum(square[known], (LEVER * _held(model)[0][known]) ** 2)
     return 1.0 / square
 
 
+def _held(model: Model) -> tuple[np.ndarray, np.ndarray]:
+    """Of each body, the farthest of its markers that a constraint holds, from the mass centre, and
+    the largest mass of all bodies that constraints tie to it.
+    """
+    lever, mass = np.zeros(len(model.bodies)), np.array([body.mass for body in model.bodies])
+    tied = []
+    for each in model.constraints:
+        ends = (getattr(each, name, None) for name in ("i", "j"))
+        places = [model.marker(end) for end in ends if end is not None]
+        bodies = [place.body for place in places if place is not None and place.body >= 0]
+        for place in places:
+            if place is not None and place.body >= 0:
+                lever[place.body] = max(lever[place.body], float(np.sqrt(place.p @ place.p)))
+        tied += [bodies] if len(bodies) > 1 else []
+    for some in (tied, reversed(tied)) * SWEEPS:
+        for bodies in some:
+            mass[bodies] = mass[bodies].max()
+    return lever, mass
+
+
 def mobilities(model: Model) -> np.ndarray:
-    """(n,) largest acceleration that a unit load gives each unknown of a body: 1/mass, 1/least
-    moment of inertia; 0 without mass.
+    """(2 n,) largest acceleration that a unit load gives each unknown of a body: 1/mass, 1/least
+    moment of inertia; 0 without mass.  Then that of the same load by all bodies that are tied to
+    it, which round-off of their places makes felt: 1/mass, 1/(mass lever).
     """
     width = np.array([body.width for body in model.bodies], dtype=int)
-    table = np.zeros((width.size, 6))
-    table[:, :3] = np.array([body.mass for body in model.bodies])[:, None]
+    lever, heaviest = _held(model)
+    own, tied = np.zeros((width.size, 6)), np.zeros((width.size, 6))
+    own[:, :3] = np.array([body.mass for body in model.bodies])[:, None]
     parts = [body.inertia for body in model.bodies if body.width == PART]
     principal = np.linalg.eigvalsh(np.array(parts).reshape(-1, 3, 3))
-    table[width == PART, 3:] = np.maximum(principal[:, :1], THIN * principal[:, 2:])
-    table = np.divide(1.0, table, out=np.zeros_like(table), where=table > 0.0)
-    return table[np.arange(6) < width[:, None]]
+    own[width == PART, 3:] = np.maximum(principal[:, :1], THIN * principal[:, 2:])
+    tied[:, :3], tied[:, 3:] = heaviest[:, None], (heaviest * lever)[:, None]
+    used = np.arange(6) < width[:, None]
+    own = np.divide(1.0, own, out=np.zeros_like(own), where=own > 0.0)[used]
+    tied = np.divide(1.0, tied, out=np.full_like(tied, UNTIED), where=tied > 0.0)[used]
+    return np.concatenate([own, tied])
 
 
 def coordinate_weights(model: Model, speeds: bool = False) -> np.ndarray:

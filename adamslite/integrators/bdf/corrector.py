@@ -127,7 +127,7 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
         if iteration > 0 and made < iteration:
             C.rate = max(LEAST_RATE, size / last)
         if is_small(C, size, error, tolerance, iteration):
-            if made == iteration or serves(felt, before, error, share):
+            if made == iteration or serves(felt, before, tolerance / CORRECTOR_SHARE, share):
                 C.rate = min(1.0, 2.0 * C.rate) if iteration == 0 else C.rate
                 return True
             renew = iteration > 0 and felt > SHRINKING * before

@@ -80,8 +80,10 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
         P.count.newton += 1
         tries += 1
         P.report.iteration = tries
-        if remaining(size, last, tries) <= tolerance:
-            if C.made + 1 == tries or serves(felt, before, error, CORRECTOR_SHARE):
+        # A matrix of this very iterate leaves less than its increment, which may be round-off.
+        exact = C.made + 1 == tries
+        if remaining(size, last, tries) <= tolerance or (exact and tries > 1 and size <= tolerance):
+            if exact or serves(felt, before, error, CORRECTOR_SHARE):
                 note_service(C, tries)
                 return True
             full = tries > 1 and felt > SHRINKING * before
