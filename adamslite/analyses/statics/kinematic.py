@@ -90,7 +90,7 @@ def _is_far(system: System, q: np.ndarray, base: np.ndarray) -> bool:
     """Whether bodies are farther than CORRECTED from where they were predicted, as a share of the
     model's extent or as a turn: |R - P| of turns by an angle t is sqrt(8) sin(t/2).
     """
-    centres = np.add.outer(system.starts[: len(system.mass)], np.arange(3)).ravel()
+    centres = np.add.outer(system.starts[: len(system.mass)], np.arange(3)).ravel().astype(int)
     moved = np.abs(system.q[centres] - q[centres]).max(initial=0.0)
     turns = np.linalg.norm((system.base - base).reshape(-1, 9), axis=1) / np.sqrt(2.0)
     extent = np.abs(q[centres]).max(initial=SMALL)
