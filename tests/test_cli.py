@@ -63,6 +63,7 @@ def test_flags_reach_simulate(pipeline) -> None:
         "formulation": "I3",
         "error": 1e-7,
         "hmax": 0.1,
+        "strict": None,
     }
 
 

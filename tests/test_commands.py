@@ -156,7 +156,7 @@ def test_changes_are_checked_where_they_come_to_run() -> None:
     (fault,) = faults("SFORCE/7, I=3\nSIM/STATICS\nSFORCE/7, J=2")
     assert fault.code == "same-marker"
     (fault,) = faults("INTEGRATOR/ERROR=1e-4\nPART/2, MASS=-1")
-    assert (fault.code, fault.span.file, fault.span.line) == ("no-mass", "<commands>", 2)
+    assert (fault.code, fault.span.file, fault.span.line) == ("negative-mass", "<commands>", 2)
 
 
 @pytest.mark.parametrize(

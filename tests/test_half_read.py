@@ -20,8 +20,8 @@ JOINT/3, REVOLUTE, I=3, J=1
 
 
 @pytest.mark.parametrize(("broken", "codes"), [
-    ("PART/4, MASS=-3, CM=4, IP=1,1\nMARKER/4, PART=4", {"value-count", "no-mass"}),
-    ("PART/4, MASS=-3, CM=4, IPP=1,1,1\nMARKER/4, PART=4", {"unknown-argument", "no-mass"}),
+    ("PART/4, MASS=-3, CM=4, IP=1,1\nMARKER/4, PART=4", {"value-count", "negative-mass"}),
+    ("PART/4, MASS=-3, CM=4, IPP=1,1,1\nMARKER/4, PART=4", {"unknown-argument", "negative-mass"}),
     ("SIMULATE/DYNAMICS, END=-1, STEPS=0.5", {"end-not-later", "not-an-integer"}),
     ("COUPLER/1, JOINTS=1,2,3, SCALES=1, TYPE=R:T:Q", {"scale-count", "unknown-choice"}),
     ("SFORCE/1, TRANSLATIONAL, I=2, J=2, FUNCTION=FOO(1)", {"same-marker", "unknown-function"}),
@@ -54,7 +54,7 @@ def test_what_is_said_of_others_is_said_once() -> None:
     broken = "PART/4, MASS=-3, CM=4, IP=1,1\nPART/5, MASS=-3, CM=5, IP=1,1\n"
     markers = "MARKER/4, PART=4\nMARKER/5, PART=5\nEND\n"
     found = [each.code for each in told(HEAD + broken + markers)]
-    assert sorted(found) == ["no-mass", "no-mass", "value-count", "value-count"]
+    assert sorted(found) == ["negative-mass", "negative-mass", "value-count", "value-count"]
 
 
 def test_a_shortened_flag_ends_where_it_is_written() -> None:

@@ -189,7 +189,7 @@ NOWHERE = "FUNCTION=LOG(DX(2,1))"
 
 
 @pytest.mark.parametrize(
-    ("law", "said"), [(ROOT, "at t = 0, a derivative has no value"), (NOWHERE, "at t = 0.")]
+    ("law", "said"), [(ROOT, "at t = 0, a derivative has no value"), (NOWHERE, "at t = 0, LOG(")]
 )
 def test_what_has_no_linear_part_is_named(law: str, said: str) -> None:
     """By the command of a run, which ends there, and by the function."""

@@ -81,7 +81,7 @@ def test_the_page_tells_numbers_measures_and_how_runs_ended() -> None:
     assert [each["values"] for each in table["numbers"]] == sweep.values.T.tolist()
     assert table["failed"] == [True, False] * 3
     assert table["outcomes"][:2] == ["INVALID", "DONE"]
-    assert "has no mass" in table["messages"][0]
+    assert "has a negative mass" in table["messages"][0]
     (lowest,) = table["measures"]
     assert (lowest["name"], lowest["unit"]) == (LOWEST, "m")
     assert lowest["values"][0] is None and lowest["values"][1] == sweep.measures[1, 0]

@@ -205,7 +205,7 @@ def test_a_run_that_makes_no_model_fails_by_name_and_the_others_go_on(path, caps
     assert main(["sweep", str(path), *varied, "--measure", LOWEST, "-o", "x.nc"]) == 4
     told = capsys.readouterr().err
     assert "3 of 3 runs, 2 DONE, 1 INVALID" in told
-    assert "run 1 (POINT_MASS/2.MASS=-2): INVALID: POINT_MASS/2 has no mass" in told
+    assert "run 1 (POINT_MASS/2.MASS=-2): INVALID: POINT_MASS/2 has a negative mass" in told
     found = al.load_sweep("x.nc")
     assert found.failed == [1]
     assert np.isnan(found[LOWEST]).tolist() == [False, True, False]
