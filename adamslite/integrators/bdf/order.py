@@ -14,7 +14,7 @@ from adamslite.integrators.bdf.state import resize, tests_velocities
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.events.stops import longest_step
 from adamslite.integrators.implicit.step_size import step_ratio
-from adamslite.integrators.implicit.tolerance import beyond_round_off, most_wrong, weighted
+from adamslite.integrators.implicit.tolerance import most_wrong, weighted
 from adamslite.integrators.stepping.step_size import LONGER, cut
 from adamslite.native.translate import native
 
@@ -58,11 +58,8 @@ def local_error(P: Problem, C: Control) -> float:
     size = weighted(d, y, n, ns, tested)
     P.report.where = most_wrong(size, d, y, n, ns, tested)
     share = CUBIC_PAST if C.order == 3 and C.h_last == 0.0 else 1.0
-    norm = share * size / ((C.order + 1.0) * P.settings.error)
-    if norm > 1.0:
-        norm = beyond_round_off(P, norm, P.q, C.cu)
-    P.report.error = norm
-    return norm
+    P.report.error = share * size / ((C.order + 1.0) * P.settings.error)
+    return P.report.error
 
 
 @native
