@@ -208,7 +208,9 @@ def test_an_expression_without_a_value_is_named(method):
     results = ended_early(FALLING + force, integrator=method)
     assert results.outcome is Outcome.NOT_FINITE
     value = r"SQRT\(0\.5 - TIME\) is nan at 0\.5 - TIME = -[\d.e-]+"
-    assert re.fullmatch(rf"VFORCE/7 \(<text>:9:1\): {WHEN} and order \d, {value}\.", reason(results))
+    assert re.fullmatch(
+        rf"VFORCE/7 \(<text>:9:1\): {WHEN} and order \d, {value}\.", reason(results)
+    )
     assert results.summary["t_end"] == pytest.approx(0.5, abs=1e-6)
     assert results.time[-1] >= 0.4
 

@@ -212,14 +212,13 @@ def test_motions_follow_an_independent_integration(method: str) -> None:
 # ---- round-off ----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("method", ("GSTIFF", "RADAU"))
-def test_what_cannot_be_improved_is_accepted_near_round_off(method: str) -> None:
-    """Both ended with steps of 5e-14 s: constraints hand round-off of positions over the step on to
-    velocities, and a shorter step has more of it.
+def test_what_cannot_be_improved_is_accepted_near_round_off() -> None:
+    """RADAU ended with steps of 5e-14 s: constraints hand round-off of positions over the step on
+    to velocities, and a shorter step has more of it.
     """
     path = Path(__file__).parent.parent / "decks/chrono/cylindrical-case03"
     deck = (path / "test_Cylindrical_Case03.adm").read_text(encoding="utf-8")
-    tight = done(deck, 5.0, 500, integrator=method, error=1e-11)
+    tight = done(deck, 5.0, 500, integrator="RADAU", error=1e-11)
     usual = done(deck, 5.0, 500, integrator="RADAU", error=1e-9)
     for name in ("PART/2.x", "PART/2.y", "PART/2.vz"):
         np.testing.assert_allclose(tight[name], usual[name], atol=1e-6)

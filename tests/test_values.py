@@ -132,7 +132,9 @@ def test_a_value_that_is_wrong_is_told_where_it_would_stand(capsys, tmp_path) ->
     assert "PART/2, MASS=-1, CM=2" in out
     for subject in (al.read(path), compiled(path)):
         subject.with_values({"PART/2.MASS": 3})
-        with pytest.raises(DeckError, match=r"8:9: error: PART/2 has a negative mass.*\n.*MASS=-1, CM=2"):
+        with pytest.raises(
+            DeckError, match=r"8:9: error: PART/2 has a negative mass.*\n.*MASS=-1, CM=2"
+        ):
             subject.with_values({"PART/2.MASS": -1})
 
 

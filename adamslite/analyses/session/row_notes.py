@@ -128,7 +128,9 @@ def _settled(method: Callable[..., Any]) -> Callable[..., Any]:
     """A method of mappings that looks at all comments."""
 
     def looking(comments: Comments, *arguments: Any) -> Any:
-        comments.settle()
+        for each in (comments, *arguments):
+            if isinstance(each, Comments):
+                each.settle()
         return method(comments, *arguments)
 
     return looking

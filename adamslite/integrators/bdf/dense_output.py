@@ -5,8 +5,8 @@ With pi_j = prod_{m=0..j-1} (x + m)/(m + 1), at the share x of the tried step,
     y = sum_{j=0..k} D_j pi_j + d pi_k
 
 goes through the new value and k past ones; for guards accelerations in between are the slope of the
-cubic through velocities, multipliers and variables a straight line.  Behind the step that has been accepted
-the differences contain d.
+cubic through velocities, multipliers and variables a straight line.  Behind an accepted step the
+differences contain d.
 """
 
 from __future__ import annotations
