@@ -212,14 +212,26 @@ def test_motions_follow_an_independent_integration(method: str) -> None:
 # ---- round-off ----------------------------------------------------------------------------------
 
 
-def test_what_cannot_be_improved_is_accepted_near_round_off() -> None:
-    """RADAU ended with steps of 5e-14 s: constraints hand round-off of positions over the step on
-    to velocities, and a shorter step has more of it.
+@pytest.mark.parametrize("method", ("GSTIFF", "RADAU"))
+def test_what_cannot_be_improved_is_accepted_near_round_off(method: str) -> None:
+    """Both ended with steps of 5e-14 s: constraints hand round-off of positions over the step on to
+    velocities, and a shorter step has more of it.
     """
     path = Path(__file__).parent.parent / "decks/chrono/cylindrical-case03"
     deck = (path / "test_Cylindrical_Case03.adm").read_text(encoding="utf-8")
-    tight = done(deck, 5.0, 500, integrator="RADAU", error=1e-11)
+    tight = done(deck, 5.0, 500, integrator=method, error=1e-11)
     usual = done(deck, 5.0, 500, integrator="RADAU", error=1e-9)
     for name in ("PART/2.x", "PART/2.y", "PART/2.vz"):
         np.testing.assert_allclose(tight[name], usual[name], atol=1e-6)
     assert "keeps no smaller ERROR" in tight.meta["accuracy"]
+
+
+@pytest.mark.parametrize("error", (1e-10, 1e-11, 1e-12))
+def test_round_off_does_not_pass_for_any_error(error: float) -> None:
+    """The slider of Simeon's crank at 0.1 s: GSTIFF was off by 1e-4 m with steps so short that
+    their round-off covered every error.
+    """
+    path = Path(__file__).parent.parent / "decks/slider-crank/slider-crank.adm"
+    results = done(path.read_text(encoding="utf-8"), 0.1, 200, integrator="GSTIFF", error=error)
+    assert abs(results["PART/4.x"][-1] - 0.429710580115) < 1e-8
+    assert results.summary["steps"] < 10_000

@@ -14,7 +14,7 @@ from adamslite.integrators.bdf.state import resize, tests_velocities
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.events.stops import longest_step
 from adamslite.integrators.implicit.step_size import step_ratio
-from adamslite.integrators.implicit.tolerance import most_wrong, weighted
+from adamslite.integrators.implicit.tolerance import beyond_round_off, most_wrong, weighted
 from adamslite.integrators.stepping.step_size import LONGER, cut
 from adamslite.native.translate import native
 
@@ -27,6 +27,8 @@ CAUTIOUS = 1.5
 # Past values on a cubic have no D_4.  What it will be is this many times the first d behind them:
 # order 3 makes 11/6 d/h up for h^3 y''''/6, the change of y' that the cubic does not have.
 CUBIC_PAST = 11.0
+# Round-off of so many ERRORs is accepted: that of tiny steps would pass for any error.
+ROUGHLY = 4.0
 # A step changes only when that pays for a new matrix, and never grows by more than this at once.
 LEAST_GROWTH, LEAST_SHRINK, MOST_GROWTH = 1.2, 0.9, 10.0
 # Steps that double again and again amplify the noise of higher orders.
@@ -58,8 +60,11 @@ def local_error(P: Problem, C: Control) -> float:
     size = weighted(d, y, n, ns, tested)
     P.report.where = most_wrong(size, d, y, n, ns, tested)
     share = CUBIC_PAST if C.order == 3 and C.h_last == 0.0 else 1.0
-    P.report.error = share * size / ((C.order + 1.0) * P.settings.error)
-    return P.report.error
+    norm = share * size / ((C.order + 1.0) * P.settings.error)
+    if norm > 1.0 and norm < ROUGHLY:
+        norm = beyond_round_off(P, norm, P.q, C.cu)
+    P.report.error = norm
+    return norm
 
 
 @native
