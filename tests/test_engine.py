@@ -179,6 +179,14 @@ MARKER/2, POINT_MASS=2
 VFORCE/1, I=2, J_PART=1, FX=IF(0.98-SIN(40*DX(2)):1,0,0)
 END
 """
+# A spike of a table lies within a step.
+LOOKS_UP = f"""{GROUND}\
+SPLINE/1, X=-2,-1,0,0.2,0.21,0.22,0.23,0.3,1,2, Y=0,0,0,0,1,3,0,0,0,0
+POINT_MASS/2, MASS=1, CM=2, VX=1
+MARKER/2, POINT_MASS=2
+VFORCE/1, I=2, J_PART=1, FX=AKISPL(DX(2),0,1)
+END
+"""
 # Its steps are those of round-off, which differs from Python to native code.
 TEETERS = f"{GROUND}{TEETER}{DAMPER}END\n"
 RUNS = {
@@ -188,6 +196,7 @@ RUNS |= {
     "steady": (PENDULUM.replace("END", "INTEGRATOR/HINIT=0.02\nEND"), "CONSTANT_BDF"),
     "rubs": (RUBS, "RADAU"),
     "passes": (PASSES, "RADAU"),
+    "looks up": (LOOKS_UP, "GSTIFF"),
     "waves": (WAVES, "RADAU"),
     "skips": (SKIPS, "ABAM"),
     "sensed": (SENSED, "GSTIFF"),
@@ -234,7 +243,8 @@ def run_of(name: str):
 
 # Rooms that hold native functions.
 NATIVE_ROOMS = tuple(
-    str(Path(al.__file__).parent / room) for room in ("integrators", "equations/operations.py")
+    str(Path(al.__file__).parent / room)
+    for room in ("integrators", "equations/operations.py", "kernels/code/lookup.py")
 )
 
 
