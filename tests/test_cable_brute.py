@@ -88,8 +88,8 @@ def test_a_belt_slides_on_its_driven_pulley() -> None:
     the ratio's logarithm.  F and P swing by 10 N while a lump passes, 4 lumps in the window: means
     to 10/(4 pi) N, 0.1 % of P, 0.17 % of the ratio.  The contact gives way by T h/(R K): the belt
     lies on a spiral, 0.23 mm over the half turn, of the slope 7e-4, which is as much of mu: 0.23 %
-    of the ratio.  ERROR=1e-4 leaves 0.2 %: 3.570 to 3.584 at 1e-4 to 1e-6, before and after a change
-    of the corrector.  Together 0.7 %; without lumps the ratio would be exp(mu pi), 2.3 % away.
+    of the ratio.  ERROR=1e-4 leaves 0.2 %: 3.570 to 3.584 at 1e-4 to 1e-6.  Together 0.7 %;
+    without lumps the ratio would be exp(mu pi), 2.3 % away.
     """
     text = """
         gravity = [0, 0, 0]

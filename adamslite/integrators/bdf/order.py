@@ -27,8 +27,6 @@ CAUTIOUS = 1.5
 # Past values on a cubic have no D_4.  What it will be is this many times the first d behind them:
 # order 3 makes 11/6 d/h up for h^3 y''''/6, the change of y' that the cubic does not have.
 CUBIC_PAST = 11.0
-# Round-off of so many ERRORs is accepted: that of tiny steps would pass for any error.
-ROUGHLY = 4.0
 # A step changes only when that pays for a new matrix, and never grows by more than this at once.
 LEAST_GROWTH, LEAST_SHRINK, MOST_GROWTH = 1.2, 0.9, 10.0
 # Steps that double again and again amplify the noise of higher orders.
@@ -61,7 +59,7 @@ def local_error(P: Problem, C: Control) -> float:
     P.report.where = most_wrong(size, d, y, n, ns, tested)
     share = CUBIC_PAST if C.order == 3 and C.h_last == 0.0 else 1.0
     norm = share * size / ((C.order + 1.0) * P.settings.error)
-    if norm > 1.0 and norm < ROUGHLY:
+    if norm > 1.0:
         norm = beyond_round_off(P, norm, P.q, C.cu)
     P.report.error = norm
     return norm

@@ -12,6 +12,8 @@ LOOSEST = 1e-3
 # Round-off of positions as a share of the largest; what counts instead of an error of that size:
 # steps grow, because round-off over the step falls.
 ROUND_OFF, CALM = 2e-15, 0.01
+# So many ERRORs at most: the round-off of tiny steps would pass for any error.
+MOST = 4.0
 
 
 @native
@@ -49,7 +51,7 @@ def beyond_round_off(P: Problem, norm: float, q: Reals, cu: float) -> float:
     ``q`` that constraints hand on to velocities, of which a shorter step has more.
     """
     noise = ROUND_OFF * max(1.0, largest_of(q, P.sizes.n)) * cu
-    if P.sizes.holonomic == 0 or not norm * P.settings.error <= noise:
+    if P.sizes.holonomic == 0 or norm > MOST or not norm * P.settings.error <= noise:
         return norm
     P.report.floor = max(P.report.floor, norm * P.settings.error)
     return CALM
