@@ -144,15 +144,15 @@ def test_the_original_corrector_waits_for_multipliers(method):
 
 @pytest.mark.parametrize("method", ("GSTIFF", "GSTIFF, I3", "CONSTANT_BDF"))
 def test_adaptivity_loosens_the_corrector(method):
-    """Fewer iterations a step; and the more so the shorter the step.  Increments by an older matrix
-    have to be small by the residual as well, which takes some of the gain.
+    """Fewer iterations a step; and the more so the shorter the step.  An iteration that only finds
+    the residual small is none, with and without it: 1.3 to 1.5 a step are left to gain from.
     """
 
     def iterations(arguments: str) -> float:
         newton, steps = counts(f"{method}, {arguments}", "newton", "steps")
         return newton / steps
 
-    assert iterations("HMAX=0.01, ADAPTIVITY=1E-5") < 0.95 * iterations("HMAX=0.01")
+    assert iterations("HMAX=0.01, ADAPTIVITY=1E-5") < 0.97 * iterations("HMAX=0.01")
     assert iterations("HMAX=0.01, ADAPTIVITY=1E-12") == iterations("HMAX=0.01")
 
 

@@ -98,7 +98,7 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
     tolerance = CORRECTOR_SHARE * error + P.settings.adaptivity / C.h
     tested = cu if tests_velocities(P) else 0.0
     share = FELT if tested > 0.0 else CORRECTOR_SHARE
-    last, felt, made, renew = 0.0, 0.0, -1, False
+    last, felt, made, renew, small = 0.0, 0.0, -1, False, False
     motion_from_increments(P, cu, yp, psi, si2)
     weigh_residuals(P, 1.0 / (cu * cu), tested / (cu * cu))
     for iteration in range(P.settings.max_it):
@@ -111,6 +111,8 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
             made, renew = iteration, False
         residual(P, phases, P.F)
         before, felt = felt, unresisted_change(P, 1.0 / cu)
+        if small and serves(felt, before, tolerance / CORRECTOR_SHARE, share):
+            return True
         solve(L, P.LV, P.pivots, P.F, P.x, P.work)
         scale_increment(P, 2.0 / (1.0 + cu / C.factored))
         size = increment_norm(P, P.F, tested, si2)
@@ -126,7 +128,8 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
         P.count.newton += 1
         if iteration > 0 and made < iteration:
             C.rate = max(LEAST_RATE, size / last)
-        if is_small(C, size, error, tolerance, iteration):
+        small = is_small(C, size, error, tolerance, iteration)
+        if small:
             if made == iteration or serves(felt, before, tolerance / CORRECTOR_SHARE, share):
                 C.rate = min(1.0, 2.0 * C.rate) if iteration == 0 else C.rate
                 return True

@@ -61,10 +61,9 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
     happens again and again, the next ones are renewed before that age.
     """
     error, last = error_limit(P, C.fixed), 0.0
-    tolerance = CORRECTOR_SHARE * error
-    if first_order_share(P) > 0.0:
-        tolerance *= min(1.0, C.h)  # Velocities are tested: they are off by that of positions / h.
-    full, tries, felt = False, 0, 0.0
+    # Where velocities are tested, they are off by that of positions / h.
+    tolerance = CORRECTOR_SHARE * error * (min(1.0, C.h) if first_order_share(P) > 0.0 else 1.0)
+    full, tries, felt, small = False, 0, 0.0, False
     C.fresh, C.made = False, -1
     weigh_residuals(P, 1.0 / C.ca, 0.0)
     while tries < P.settings.max_it:
@@ -75,14 +74,17 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
                 return False
         residual(P, INDEX3, P.F)
         before, felt = felt, unresisted_change(P, 1.0 / C.cs)
+        if small and serves(felt, before, error, CORRECTOR_SHARE):
+            note_service(C, tries)
+            return True
         solve(L, P.LV, P.pivots, P.F, P.x, P.work)
         size = move_all(P, C, P.F)
         P.count.newton += 1
         tries += 1
         P.report.iteration = tries
-        # A matrix of this very iterate leaves less than its increment, which may be round-off.
         exact = C.made + 1 == tries
-        if remaining(size, last, tries) <= tolerance or (exact and tries > 1 and size <= tolerance):
+        small = remaining(size, last, tries, exact) <= tolerance
+        if small:
             if exact or serves(felt, before, error, CORRECTOR_SHARE):
                 note_service(C, tries)
                 return True
@@ -118,11 +120,14 @@ def note_failure(C: Control) -> None:
 
 
 @native
-def remaining(size: float, last: float, tries: int) -> float:
-    """Error left after an increment of ``size`` when the one before was ``last``."""
+def remaining(size: float, last: float, tries: int, exact: bool) -> float:
+    """Error left after an increment of ``size`` when the one before was ``last``.
+
+    A matrix of this very iterate (``exact``) leaves less than its increment, which may be noise.
+    """
     if tries == 1:
         return size / QUIET
-    rate = min(size / last, WORST_RATE)
+    rate = min(size / last, 0.5 if exact else WORST_RATE)
     return size * rate / (1.0 - rate)
 
 

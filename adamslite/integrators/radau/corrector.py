@@ -56,7 +56,7 @@ def ready(P: Problem, L: Plan, C: Control, turn: int) -> bool:
 @native
 def correct(P: Problem, L: Plan, C: Control) -> bool:
     """Newton from the prediction; True when converged."""
-    h, last, felt = C.h, 0.0, 0.0
+    h, last, felt, small = C.h, 0.0, 0.0, False
     tolerance, most = CORRECTOR_SHARE * P.settings.error, P.settings.max_it
     C.rate, C.theta, C.made = max(C.rate, LEAST_RATE) ** AGED, 0.0, -1
     weigh_residuals(P, 0.5 * h * h, h)
@@ -64,6 +64,8 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
         if not ready(P, L, C, turn):
             return False
         before, felt = felt, stage_residuals(P, h)
+        if small and serves(felt, before, P.settings.error, CORRECTOR_SHARE):
+            return True
         stage_increments(P, L)
         size = move_stages(P, h)
         P.count.newton += 1
@@ -81,7 +83,8 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
             )
             if hopeless and size > NOISE * round_off(P, C):
                 return False
-        if C.rate * size <= tolerance or (hopeless and size <= NOISE * round_off(P, C)):
+        small = C.rate * size <= tolerance or (hopeless and size <= NOISE * round_off(P, C))
+        if small:
             if good:
                 return True
             C.known = turn == 0 or felt <= SHRINKING * before
