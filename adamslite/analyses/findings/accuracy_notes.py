@@ -49,8 +49,7 @@ FINER, SHORT, SHORTER = 10.0, 1.2, 0.55
 # Where ERROR is close to round-off, or most of such a run would take too long, it is coarser:
 # by that, or its square where that takes too long as well; steps grow by that power of it.
 FINEST, COARSER, COARSEST, STRETCH = 1e-10, 100.0, 1e-3, 0.13
-# Residuals times unknowns that a second run may take: 30 ms or so, of the second that the command
-# takes; of a longer run this share.
+# Residuals times unknowns that a second run may take: some 30 ms; of a longer run this share.
 LOOK, SHARE = 900_000.0, 0.03
 # What has to be allowed, in first runs, for most of a finer one, and for all of a coarser one.
 DEARER, CHEAPER = 1.45, 0.5
@@ -179,18 +178,19 @@ def second_run(
     if part < LEAST_PART or not 1 < history.numbers < MOST_NUMBERS:
         return {}, 0.0
     apart = np.diff(history.whole.times)
-    longest = min(
-        settings.hmax or inf, float(np.median(apart[apart > 0.0])) if apart.any() else inf
-    )
-    order, error, stretch, factor = settings.formula.order, settings.error / FINER, SHORTER, SHORT
+    usual = float(np.median(apart[apart > 0.0])) if apart.any() else inf
+    longest = min(settings.hmax or inf, usual)
+    # Steps may be limited by expressions of TIME: to their mean.
+    hmax = SHORTER * min(longest, float(apart.sum()) / max(1, int(counts.steps)) or inf)
+    order, error, factor = settings.formula.order, settings.error / FINER, SHORT
     coarser = min(COARSER if part > CHEAPER else COARSER**2, COARSEST / settings.error)
     if coarser >= FINER and (part < DEARER or settings.error < FINEST):
         error, stretch = settings.error * coarser, coarser**STRETCH
+        hmax = stretch * longest
         factor = 1.0 / (min(coarser ** (order / (order + 1.0)), stretch**order) - 1.0)
     options = {
         "integrator": settings.method, "formulation": settings.form, "error": error,
-        "hmax": stretch * longest if longest < inf else None,
-        "max_steps": int(part * int(counts.steps)) + 1,
+        "hmax": hmax if hmax < inf else None, "max_steps": int(part * int(counts.steps)) + 1,
     }  # fmt: skip
     return options, factor
 
