@@ -130,7 +130,7 @@ def simulate(
             need_room(session.system, plan, kept, output, journal is not None, tables, files)
 
         cpu = _carried_out(session, plan, began, need_its_room)
-        session.again = partial(second, files=files.to_read, cpu_limit=budget.cpu_left)
+        session.again = partial(second, files=files.to_read)
         results = _results_in_memory(session, cpu, notes, source)
     if confirm and results.outcome is not Outcome.INTERRUPTED:
         again = partial(
