@@ -61,3 +61,16 @@ def test_a_negative_mass_is_called_so(mass: str, code: str) -> None:
     with pytest.raises(DeckError) as caught:
         adamslite.read(deck)
     assert [each.code for each in caught.value.errors] == [code]
+
+
+def test_a_mass_of_zero_is_noted_once() -> None:
+    """Eight PARTs with MASS=0 give one note; one without MASS, as dummy parts are written, none."""
+    parts = "".join(
+        f"PART/{k}, MASS=0\nMARKER/{k}, PART={k}\nJOINT/{k}, FIXED, I={k}, J=1\n"
+        for k in range(2, 10)
+    )
+    found = adamslite.read(f"x\nPART/1, GROUND\nMARKER/1, PART=1\n{parts}END\n").warnings
+    assert [(each.code, each.severity) for each in found] == [("zero-mass", "note")]
+    assert found[0].message.endswith("PART/6, PART/7 and 2 more")
+    silent = parts.replace(", MASS=0", "")
+    assert not adamslite.read(f"x\nPART/1, GROUND\nMARKER/1, PART=1\n{silent}END\n").warnings

@@ -17,7 +17,7 @@ from adamslite.checks.posture import (
 from adamslite.checks.rule import needs, positive
 from adamslite.deck.deck import Deck
 from adamslite.deck.names import RESERVED
-from adamslite.deck.statement_diagnostics import diagnose
+from adamslite.deck.statement_diagnostics import diagnose, diagnose_all
 from adamslite.elements.beam import Beam
 from adamslite.elements.bushing import Bushing
 from adamslite.elements.field import Field
@@ -102,6 +102,13 @@ def masses(deck: Deck) -> Iterator[Diagnostic]:
             yield diagnose(point, "negative-mass", "mass", mass=point.mass)
         elif point.given("mass") and point.mass == 0:
             yield diagnose(point, "no-mass", "mass")
+
+
+def zero_masses(deck: Deck) -> Iterator[Diagnostic]:
+    """Parts whose mass is given as zero rather than left out."""
+    zero = [part for part in deck.of(Part) if part.mass == 0 and _is_held(deck, part)]
+    if zero:
+        yield diagnose_all(zero, "zero-mass")
 
 
 def _is_held(deck: Deck, part: Statement) -> bool:

@@ -38,7 +38,6 @@ ROUNDED, ALIKE = 1e-9, 0.005
 # Metres in the units of length in which gravity is commonly written, and seconds.
 LENGTHS = (1.0, 1e-2, 1e-3, 1e3, INCH, 12 * INCH)
 TIMES = (1.0, 1e-3)
-MOST_LISTED = 6
 INTEGER = re.compile(r"\b\d{1,18}\b")
 Fields = tuple[list[tuple[str, str]], list[str]]
 """Fields that refer to markers or variables, with the keyword, and those with expressions."""
@@ -102,9 +101,7 @@ def unused(deck: Deck) -> Iterator[Diagnostic]:
     idle: list[Statement] = [m for m in markers if ("MARKER", m.key) not in used]
     idle += [v for v in constants if ("VARIABLE", v.key) not in used]
     if idle:
-        listed = ", ".join(each.label for each in idle[:MOST_LISTED])
-        more = f" and {len(idle) - MOST_LISTED} more" if len(idle) > MOST_LISTED else ""
-        yield diagnose_all(idle, "unused", listed=listed + more)
+        yield diagnose_all(idle, "unused")
 
 
 def _is_placed(marker: Marker) -> bool:

@@ -20,7 +20,6 @@ from adamslite.language.interfaces import Key
 from adamslite.language.statement import Statement
 
 BODIES = ("PART", "POINT_MASS", "FLEX_BODY", "FE_PART")
-MOST_LISTED = 6
 
 
 def owners(deck: Deck) -> Iterator[Diagnostic]:
@@ -122,6 +121,4 @@ def floating_unused(deck: Deck) -> Iterator[Diagnostic]:
     used |= {each.ifloat for each in deck.of(Cvcv)}
     idle = [each for each in deck.of(Marker) if each.floating and each.key not in used]
     if idle:
-        listed = ", ".join(each.label for each in idle[:MOST_LISTED])
-        more = f" and {len(idle) - MOST_LISTED} more" if len(idle) > MOST_LISTED else ""
-        yield diagnose_all(idle, "floating-unused", listed=listed + more)
+        yield diagnose_all(idle, "floating-unused")

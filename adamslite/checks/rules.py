@@ -18,6 +18,7 @@ from adamslite.checks.bodies_and_elements import (
     torques_on_points,
     unit_system,
     wrenches_on_points,
+    zero_masses,
 )
 from adamslite.checks.constraints import CONSTRAINT_RULES
 from adamslite.checks.contacts import contact_laws, contact_shapes
@@ -82,6 +83,7 @@ RULES: list[Rule] = [
     second_grounds,
     ground_without_data,
     masses,
+    zero_masses,
     inertia,
     markers_of_bodies,
     owners,

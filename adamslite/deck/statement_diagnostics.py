@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from adamslite.language.interfaces import Key
     from adamslite.syntax.tokens import Lexeme
 
+# Labels in a message about several statements.
+MOST_LISTED = 6
+
 Owner: TypeAlias = Statement | Redefinition[Any]
 
 
@@ -30,8 +33,13 @@ def diagnose(
 
 
 def diagnose_all(statements: Sequence[Owner], code: str, **words: object) -> Diagnostic:
-    """One message about several statements, at the first; all of them are among its places."""
+    """One message about several statements, at the first; all of them are among its places.
+
+    ``listed`` in its text are the labels of the first few of them.
+    """
     places = tuple(place_of(each) for each in statements)
+    more = f" and {len(places) - MOST_LISTED} more" if len(places) > MOST_LISTED else ""
+    words.setdefault("listed", ", ".join(each.label for each in statements[:MOST_LISTED]) + more)
     return replace(_at(statements[0], code, "", places[0], "", words), places=places)
 
 

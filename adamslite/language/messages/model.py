@@ -38,6 +38,13 @@ MODEL: dict[str, Message] = {
         "every body needs MASS= above zero, except a PART that constraints carry",
         ("PART/4", "POINT_MASS/4, MASS=0"),
     ),
+    "zero-mass": Message(
+        "MASS=0 is taken as given: {listed}",
+        "such a PART has no weight and resists no acceleration; constraints alone carry it. Leave "
+        "out MASS where that is meant",
+        ("PART/4, MASS=0\nMARKER/4, PART=4\nJOINT/1, FIXED, I=2, J=4",),
+        severity=NOTE,
+    ),
     "negative-mass": Message(
         "{label} has a negative mass, {mass:g}",
         "a force along its motion would slow it down: give MASS= above zero",
