@@ -86,40 +86,22 @@ def mod(scope: Scope, a: Expr, b: Expr) -> Expr:
     return a - _truncated(a / b) * b
 
 
-@function("AINT", "x:number", edges=lambda x: (fn.sin(math.pi * x),), order=-1)
-def aint(scope: Scope, x: Expr) -> Expr:
-    """x without its fraction (towards 0).
+def _whole(name: str, synonym: str, nearest: bool, page: str) -> None:
+    """Register a function that rounds, under both of its names."""
 
-    Unit: none.  Source: FORTRAN intrinsic AINT.
-    """
-    return _truncated(x)
+    def body(scope: Scope, x: Expr) -> Expr:
+        return _nearest(x) if nearest else _truncated(x)
 
+    def edges(x: Expr) -> tuple[Expr, ...]:
+        return ((fn.cos if nearest else fn.sin)(math.pi * x),)
 
-@function("INT", "x:number", edges=lambda x: (fn.sin(math.pi * x),), order=-1)
-def int_(scope: Scope, x: Expr) -> Expr:
-    """x without its fraction (towards 0): another name of AINT.
-
-    Unit: none.  Source: FORTRAN intrinsic INT.
-    """
-    return _truncated(x)
+    for each, note in ((name, ""), (synonym, f": another name of {name}")):
+        body.__doc__ = f"{page}{note}.\n\nUnit: none.  Source: FORTRAN intrinsic {each}."
+        function(each, "x:number", edges=edges, order=-1)(body)
 
 
-@function("ANINT", "x:number", edges=lambda x: (fn.cos(math.pi * x),), order=-1)
-def anint(scope: Scope, x: Expr) -> Expr:
-    """The whole number nearest to x, halves away from 0.
-
-    Unit: none.  Source: FORTRAN intrinsic ANINT.
-    """
-    return _nearest(x)
-
-
-@function("NINT", "x:number", edges=lambda x: (fn.cos(math.pi * x),), order=-1)
-def nint(scope: Scope, x: Expr) -> Expr:
-    """The whole number nearest to x, halves away from 0: another name of ANINT.
-
-    Unit: none.  Source: FORTRAN intrinsic NINT.
-    """
-    return _nearest(x)
+_whole("AINT", "INT", False, "x without its fraction (towards 0)")
+_whole("ANINT", "NINT", True, "The whole number nearest to x, halves away from 0")
 
 
 @function("SQRT", "x:number")
@@ -131,22 +113,18 @@ def sqrt(scope: Scope, x: Expr) -> Expr:
     return root(x)
 
 
-@function("EXP", "x:number")
-def exp(scope: Scope, x: Expr) -> Expr:
-    """e to the power x.
+def _plain(name: str, page: str) -> None:
+    """Register a function of one argument that formulas have under the same name."""
 
-    Unit: none.  Source: FORTRAN intrinsic EXP.
-    """
-    return fn.exp(x)
+    def body(scope: Scope, x: Expr) -> Expr:
+        return getattr(fn, name.lower())(x)
+
+    body.__doc__ = f"{page}Source: FORTRAN intrinsic {name}."
+    function(name, "x:number")(body)
 
 
-@function("LOG", "x:number")
-def log(scope: Scope, x: Expr) -> Expr:
-    """Natural logarithm of x > 0.
-
-    Unit: none.  Source: FORTRAN intrinsic LOG.
-    """
-    return fn.log(x)
+_plain("EXP", "e to the power x.\n\nUnit: none.  ")
+_plain("LOG", "Natural logarithm of x > 0.\n\nUnit: none.  ")
 
 
 @function("LOG10", "x:number")
@@ -158,58 +136,12 @@ def log10(scope: Scope, x: Expr) -> Expr:
     return fn.log(x) / math.log(10.0)
 
 
-@function("SIN", "x:number")
-def sin(scope: Scope, x: Expr) -> Expr:
-    """Sine of x radians.
-
-    Source: FORTRAN intrinsic SIN.
-    """
-    return fn.sin(x)
-
-
-@function("COS", "x:number")
-def cos(scope: Scope, x: Expr) -> Expr:
-    """Cosine of x radians.
-
-    Source: FORTRAN intrinsic COS.
-    """
-    return fn.cos(x)
-
-
-@function("TAN", "x:number")
-def tan(scope: Scope, x: Expr) -> Expr:
-    """Tangent of x radians.
-
-    Source: FORTRAN intrinsic TAN.
-    """
-    return fn.tan(x)
-
-
-@function("ASIN", "x:number")
-def asin(scope: Scope, x: Expr) -> Expr:
-    """Angle in -pi/2..pi/2 radians whose sine is x, |x| <= 1.
-
-    Source: FORTRAN intrinsic ASIN.
-    """
-    return fn.asin(x)
-
-
-@function("ACOS", "x:number")
-def acos(scope: Scope, x: Expr) -> Expr:
-    """Angle in 0..pi radians whose cosine is x, |x| <= 1.
-
-    Source: FORTRAN intrinsic ACOS.
-    """
-    return fn.acos(x)
-
-
-@function("ATAN", "x:number")
-def atan(scope: Scope, x: Expr) -> Expr:
-    """Angle in -pi/2..pi/2 radians whose tangent is x.
-
-    Source: FORTRAN intrinsic ATAN.
-    """
-    return fn.atan(x)
+_plain("SIN", "Sine of x radians.\n\n")
+_plain("COS", "Cosine of x radians.\n\n")
+_plain("TAN", "Tangent of x radians.\n\n")
+_plain("ASIN", "Angle in -pi/2..pi/2 radians whose sine is x, |x| <= 1.\n\n")
+_plain("ACOS", "Angle in 0..pi radians whose cosine is x, |x| <= 1.\n\n")
+_plain("ATAN", "Angle in -pi/2..pi/2 radians whose tangent is x.\n\n")
 
 
 @function("ATAN2", "y:number x:number")
@@ -221,28 +153,6 @@ def atan2(scope: Scope, y: Expr, x: Expr) -> Expr:
     return fn.atan2(y, x)
 
 
-@function("SINH", "x:number")
-def sinh(scope: Scope, x: Expr) -> Expr:
-    """Hyperbolic sine of x.
-
-    Source: FORTRAN intrinsic SINH.
-    """
-    return fn.sinh(x)
-
-
-@function("COSH", "x:number")
-def cosh(scope: Scope, x: Expr) -> Expr:
-    """Hyperbolic cosine of x.
-
-    Source: FORTRAN intrinsic COSH.
-    """
-    return fn.cosh(x)
-
-
-@function("TANH", "x:number")
-def tanh(scope: Scope, x: Expr) -> Expr:
-    """Hyperbolic tangent of x.
-
-    Source: FORTRAN intrinsic TANH.
-    """
-    return fn.tanh(x)
+_plain("SINH", "Hyperbolic sine of x.\n\n")
+_plain("COSH", "Hyperbolic cosine of x.\n\n")
+_plain("TANH", "Hyperbolic tangent of x.\n\n")

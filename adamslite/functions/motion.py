@@ -13,35 +13,40 @@ are the ground frame.  Accelerations are purely kinematic: gravity is not part o
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from adamslite.language.function import function
 from adamslite.symbolic.formulas import norm, root
 from adamslite.symbolic.scope import Scope, Vector, cross, dot, minus, scale
 from adamslite.symbolic.types import Expr, Frame
 
-
-def _velocity(scope: Scope, i: Frame, j: Frame, frame: Frame) -> Vector:
-    velocity = scope.velocity(i, j)
-    if scope.is_ground(frame):
-        return velocity
-    return minus(velocity, cross(scope.omega(frame), scope.position(i, j)))
+IN_GROUND = "i:marker j:marker=0 k:marker=0"
+IN_FRAME = f"{IN_GROUND} l:marker=0"
+Motion = Callable[..., Vector]
 
 
-def _acceleration(scope: Scope, i: Frame, j: Frame, frame: Frame) -> Vector:
-    acceleration = scope.acceleration(i, j)
-    if scope.is_ground(frame):
-        return acceleration
-    turn, arm = scope.omega(frame), scope.position(i, j)
-    coriolis = scale(2, cross(turn, _velocity(scope, i, j, frame)))
-    centripetal = cross(turn, cross(turn, arm))
-    euler = cross(scope.alpha(frame), arm)
-    return minus(minus(minus(acceleration, euler), coriolis), centripetal)
+def _along_axes(family: str, signature: str) -> Callable[[Motion], Motion]:
+    """Register the components of a vector along the axes of k, such as DX, DY and DZ.
 
+    The docstring of the vector is the page of the first of them.
+    """
 
-def _spin_rate(scope: Scope, i: Frame, j: Frame, frame: Frame) -> Vector:
-    rate = scope.alpha(i, j)
-    if scope.is_ground(frame):
-        return rate
-    return minus(rate, cross(scope.omega(frame), scope.omega(i, j)))
+    def register(vector: Motion) -> Motion:
+        for number, axis in enumerate("xyz"):
+
+            def component(
+                scope: Scope, i: Frame, j: Frame, k: Frame, *frame: Frame, number: int = number
+            ) -> Expr:
+                return dot(vector(scope, i, j, *frame), scope.axes(k)[number])
+
+            name, page = family + axis.upper(), str(vector.__doc__)
+            for word in ("{} axis", "{}_k"):
+                page = page.replace(word.format("x"), word.format(axis))
+            component.__doc__ = page.replace(f"{family}X", name)
+            function(name, signature)(component)
+        return vector
+
+    return register
 
 
 @function("DM", "i:marker j:marker=0")
@@ -55,34 +60,14 @@ def dm(scope: Scope, i: Frame, j: Frame) -> Expr:
     return root(dot(arm, arm))
 
 
-@function("DX", "i:marker j:marker=0 k:marker=0")
-def dx(scope: Scope, i: Frame, j: Frame, k: Frame) -> Expr:
+@_along_axes("D", IN_GROUND)
+def _displacement(scope: Scope, i: Frame, j: Frame) -> Vector:
     """Displacement of i from j along the x axis of k: (r_i - r_j) . x_k.
 
     Unit: length.  Without k the axes are those of ground, not those of j.
     Source: Adams/Solver function DX.
     """
-    return dot(scope.position(i, j), scope.axes(k)[0])
-
-
-@function("DY", "i:marker j:marker=0 k:marker=0")
-def dy(scope: Scope, i: Frame, j: Frame, k: Frame) -> Expr:
-    """Displacement of i from j along the y axis of k: (r_i - r_j) . y_k.
-
-    Unit: length.  Without k the axes are those of ground, not those of j.
-    Source: Adams/Solver function DY.
-    """
-    return dot(scope.position(i, j), scope.axes(k)[1])
-
-
-@function("DZ", "i:marker j:marker=0 k:marker=0")
-def dz(scope: Scope, i: Frame, j: Frame, k: Frame) -> Expr:
-    """Displacement of i from j along the z axis of k: (r_i - r_j) . z_k.
-
-    Unit: length.  Without k the axes are those of ground, not those of j.
-    Source: Adams/Solver function DZ.
-    """
-    return dot(scope.position(i, j), scope.axes(k)[2])
+    return scope.position(i, j)
 
 
 @function("VM", "i:marker j:marker=0 l:marker=0")
@@ -107,31 +92,16 @@ def vr(scope: Scope, i: Frame, j: Frame, frame: Frame) -> Expr:
     return dot(scope.velocity(i, j), arm) / root(dot(arm, arm))
 
 
-@function("VX", "i:marker j:marker=0 k:marker=0 l:marker=0")
-def vx(scope: Scope, i: Frame, j: Frame, k: Frame, frame: Frame) -> Expr:
+@_along_axes("V", IN_FRAME)
+def _velocity(scope: Scope, i: Frame, j: Frame, frame: Frame) -> Vector:
     """Velocity of i against j along the x axis of k: d/dt(r_i - r_j) in frame l, times x_k.
 
     Unit: length/time.  Source: Adams/Solver function VX.
     """
-    return dot(_velocity(scope, i, j, frame), scope.axes(k)[0])
-
-
-@function("VY", "i:marker j:marker=0 k:marker=0 l:marker=0")
-def vy(scope: Scope, i: Frame, j: Frame, k: Frame, frame: Frame) -> Expr:
-    """Velocity of i against j along the y axis of k: d/dt(r_i - r_j) in frame l, times y_k.
-
-    Unit: length/time.  Source: Adams/Solver function VY.
-    """
-    return dot(_velocity(scope, i, j, frame), scope.axes(k)[1])
-
-
-@function("VZ", "i:marker j:marker=0 k:marker=0 l:marker=0")
-def vz(scope: Scope, i: Frame, j: Frame, k: Frame, frame: Frame) -> Expr:
-    """Velocity of i against j along the z axis of k: d/dt(r_i - r_j) in frame l, times z_k.
-
-    Unit: length/time.  Source: Adams/Solver function VZ.
-    """
-    return dot(_velocity(scope, i, j, frame), scope.axes(k)[2])
+    velocity = scope.velocity(i, j)
+    if scope.is_ground(frame):
+        return velocity
+    return minus(velocity, cross(scope.omega(frame), scope.position(i, j)))
 
 
 @function("ACCM", "i:marker j:marker=0 l:marker=0")
@@ -144,31 +114,20 @@ def accm(scope: Scope, i: Frame, j: Frame, frame: Frame) -> Expr:
     return norm(_acceleration(scope, i, j, frame))
 
 
-@function("ACCX", "i:marker j:marker=0 k:marker=0 l:marker=0")
-def accx(scope: Scope, i: Frame, j: Frame, k: Frame, frame: Frame) -> Expr:
+@_along_axes("ACC", IN_FRAME)
+def _acceleration(scope: Scope, i: Frame, j: Frame, frame: Frame) -> Vector:
     """Acceleration of i against j along the x axis of k: d2/dt2(r_i - r_j) in frame l, times x_k.
 
     Unit: length/time**2; without gravity.  Source: Adams/Solver function ACCX.
     """
-    return dot(_acceleration(scope, i, j, frame), scope.axes(k)[0])
-
-
-@function("ACCY", "i:marker j:marker=0 k:marker=0 l:marker=0")
-def accy(scope: Scope, i: Frame, j: Frame, k: Frame, frame: Frame) -> Expr:
-    """Acceleration of i against j along the y axis of k: d2/dt2(r_i - r_j) in frame l, times y_k.
-
-    Unit: length/time**2; without gravity.  Source: Adams/Solver function ACCY.
-    """
-    return dot(_acceleration(scope, i, j, frame), scope.axes(k)[1])
-
-
-@function("ACCZ", "i:marker j:marker=0 k:marker=0 l:marker=0")
-def accz(scope: Scope, i: Frame, j: Frame, k: Frame, frame: Frame) -> Expr:
-    """Acceleration of i against j along the z axis of k: d2/dt2(r_i - r_j) in frame l, times z_k.
-
-    Unit: length/time**2; without gravity.  Source: Adams/Solver function ACCZ.
-    """
-    return dot(_acceleration(scope, i, j, frame), scope.axes(k)[2])
+    acceleration = scope.acceleration(i, j)
+    if scope.is_ground(frame):
+        return acceleration
+    turn, arm = scope.omega(frame), scope.position(i, j)
+    coriolis = scale(2, cross(turn, _velocity(scope, i, j, frame)))
+    centripetal = cross(turn, cross(turn, arm))
+    euler = cross(scope.alpha(frame), arm)
+    return minus(minus(minus(acceleration, euler), coriolis), centripetal)
 
 
 @function("WM", "i:marker j:marker=0")
@@ -181,31 +140,13 @@ def wm(scope: Scope, i: Frame, j: Frame) -> Expr:
     return norm(scope.omega(i, j))
 
 
-@function("WX", "i:marker j:marker=0 k:marker=0")
-def wx(scope: Scope, i: Frame, j: Frame, k: Frame) -> Expr:
+@_along_axes("W", IN_GROUND)
+def _spin(scope: Scope, i: Frame, j: Frame) -> Vector:
     """Angular velocity of i against j along the x axis of k: (w_i - w_j) . x_k.
 
     Unit: rad/time.  Source: Adams/Solver function WX.
     """
-    return dot(scope.omega(i, j), scope.axes(k)[0])
-
-
-@function("WY", "i:marker j:marker=0 k:marker=0")
-def wy(scope: Scope, i: Frame, j: Frame, k: Frame) -> Expr:
-    """Angular velocity of i against j along the y axis of k: (w_i - w_j) . y_k.
-
-    Unit: rad/time.  Source: Adams/Solver function WY.
-    """
-    return dot(scope.omega(i, j), scope.axes(k)[1])
-
-
-@function("WZ", "i:marker j:marker=0 k:marker=0")
-def wz(scope: Scope, i: Frame, j: Frame, k: Frame) -> Expr:
-    """Angular velocity of i against j along the z axis of k: (w_i - w_j) . z_k.
-
-    Unit: rad/time.  Source: Adams/Solver function WZ.
-    """
-    return dot(scope.omega(i, j), scope.axes(k)[2])
+    return scope.omega(i, j)
 
 
 @function("WDTM", "i:marker j:marker=0 l:marker=0")
@@ -218,28 +159,13 @@ def wdtm(scope: Scope, i: Frame, j: Frame, frame: Frame) -> Expr:
     return norm(_spin_rate(scope, i, j, frame))
 
 
-@function("WDTX", "i:marker j:marker=0 k:marker=0 l:marker=0")
-def wdtx(scope: Scope, i: Frame, j: Frame, k: Frame, frame: Frame) -> Expr:
+@_along_axes("WDT", IN_FRAME)
+def _spin_rate(scope: Scope, i: Frame, j: Frame, frame: Frame) -> Vector:
     """Angular acceleration of i against j along the x axis of k: d/dt(w_i - w_j) in l, times x_k.
 
     Unit: rad/time**2.  Source: Adams/Solver function WDTX.
     """
-    return dot(_spin_rate(scope, i, j, frame), scope.axes(k)[0])
-
-
-@function("WDTY", "i:marker j:marker=0 k:marker=0 l:marker=0")
-def wdty(scope: Scope, i: Frame, j: Frame, k: Frame, frame: Frame) -> Expr:
-    """Angular acceleration of i against j along the y axis of k: d/dt(w_i - w_j) in l, times y_k.
-
-    Unit: rad/time**2.  Source: Adams/Solver function WDTY.
-    """
-    return dot(_spin_rate(scope, i, j, frame), scope.axes(k)[1])
-
-
-@function("WDTZ", "i:marker j:marker=0 k:marker=0 l:marker=0")
-def wdtz(scope: Scope, i: Frame, j: Frame, k: Frame, frame: Frame) -> Expr:
-    """Angular acceleration of i against j along the z axis of k: d/dt(w_i - w_j) in l, times z_k.
-
-    Unit: rad/time**2.  Source: Adams/Solver function WDTZ.
-    """
-    return dot(_spin_rate(scope, i, j, frame), scope.axes(k)[2])
+    rate = scope.alpha(i, j)
+    if scope.is_ground(frame):
+        return rate
+    return minus(rate, cross(scope.omega(frame), scope.omega(i, j)))
