@@ -17,7 +17,7 @@ from spans import Span
 
 from adamslite.cables.statements.forms import cable_variables, head, number, point, section, tail
 from adamslite.results.results import Results
-from adamslite.verification.signals import arrival, plateau
+from adamslite.verification.measures import arrival, plateau
 
 Draw = Callable[[str, int], str]
 Judge = Callable[[Results, int], float]

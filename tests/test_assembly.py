@@ -15,7 +15,7 @@ import adamslite as al
 from adamslite.analyses.initial.redundancy import row_name
 from adamslite.analyses.initial.rows import constraint_gradient
 from adamslite.analyses.session.session import Session
-from adamslite.api.contents import _freedom
+from adamslite.api.checks import _freedom
 from adamslite.assembly.closing import close, moved
 from adamslite.assembly.rank import (
     MOST_ORTHOGONALISED,
@@ -150,11 +150,11 @@ def test_of_many_rows_of_few_coordinates_all_but_as_many_are_left_out() -> None:
 
 
 def test_freedoms_are_not_counted_where_thousands_of_rows_are_redundant(monkeypatch) -> None:
-    monkeypatch.setattr("adamslite.api.contents.MOST_NAMED", 3)
+    monkeypatch.setattr("adamslite.api.checks.MOST_NAMED", 3)
     freedom, named = _freedom(al.read(fixed_again_and_again(3)))
     assert freedom.startswith("0 degrees of freedom") and named.endswith("; and 9 more")
     assert named.count(";") == 3
-    monkeypatch.setattr("adamslite.api.contents.MOST_SURPLUS", 11)
+    monkeypatch.setattr("adamslite.api.checks.MOST_SURPLUS", 11)
     (only,) = _freedom(al.read(fixed_again_and_again(3)))
     assert only.endswith("18 constraint rows: too many of them are redundant to count degrees of "
                          "freedom")  # fmt: skip

@@ -14,8 +14,7 @@ import adamslite as al
 from adamslite.analyses.clock import changes
 from adamslite.analyses.clock.clock import Clock
 from adamslite.analyses.clock.enclosures import enclose
-from adamslite.analyses.clock.kept_scales import all_time_scales
-from adamslite.analyses.clock.step_limits import timetable
+from adamslite.analyses.clock.step_limits import all_time_scales, timetable
 from adamslite.caching import entries
 from adamslite.integrators import contract
 from adamslite.kernels.code.clock_program import ClockWriter

@@ -9,7 +9,7 @@ from scenes import GROUND
 
 import adamslite as al
 from adamslite import Outcome
-from adamslite.analyses.clock import kept_scales, stops
+from adamslite.analyses.clock import step_limits, stops
 from adamslite.analyses.setup.run_options import Budget
 
 DECK = GROUND + (
@@ -22,7 +22,7 @@ GUARDS = tuple(f"IF({curve}: 1, 0, -1)" for curve in CURVES)
 
 @pytest.mark.parametrize(
     ("module", "name", "forces"),
-    [(kept_scales, "time_scales", CURVES), (stops, "around_changes", GUARDS)],
+    [(step_limits, "time_scales", CURVES), (stops, "around_changes", GUARDS)],
 )
 def test_each_expression_is_a_place_to_end(
     module: Any, name: str, forces: tuple[str, ...], monkeypatch: pytest.MonkeyPatch

@@ -14,9 +14,8 @@ import pytest
 from decklets import told
 
 from adamslite.cli.main import main
-from adamslite.editing.snippets import call, statement
 from adamslite.editing.textmate import deck_grammar
-from adamslite.editing.vscode import files
+from adamslite.editing.vscode import call, files, statement
 from adamslite.language.abbreviations import PREFERRED, match
 from adamslite.language.function import FUNCTIONS
 from adamslite.language.messages import START

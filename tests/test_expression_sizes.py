@@ -33,7 +33,7 @@ def errors(text: str) -> list[str]:
 @pytest.fixture
 def limited(monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest) -> None:
     """So many operations are the most."""
-    for module in ("kernels.columns", "kernels.binding", "checks.sizes"):
+    for module in ("kernels.columns", "kernels.binding", "checks.expressions"):
         monkeypatch.setattr(f"adamslite.{module}.LARGEST", request.param)
 
 
@@ -75,9 +75,9 @@ def test_one_expression_may_be_too_large_by_itself(limited: None) -> None:
 
 
 def test_check_reports_decks_that_are_too_large(monkeypatch: pytest.MonkeyPatch) -> None:
-    for module in ("kernels.collecting", "checks.sizes"):
+    for module in ("kernels.collecting", "checks.expressions"):
         monkeypatch.setattr(f"adamslite.{module}.MOST_IN_ALL", 60)
-    monkeypatch.setattr("adamslite.checks.sizes.LARGEST", 200)
+    monkeypatch.setattr("adamslite.checks.expressions.LARGEST", 200)
     own = (f"VARIABLE/{n}, FUNCTION=DX(2,1)**{n}{'+TIME' * n}" for n in range(2, 12))
     (only,) = errors(DECK.format(chain="\n".join(own)))
     assert "60 operations" in only

@@ -88,7 +88,7 @@ def test_a_damaged_entry_is_rebuilt(package) -> None:
 
 def test_tracebacks_and_sources_are_those_of_the_files(package) -> None:
     code = LOADED + (
-        "import inspect, adamslite.api.contents as module\n"
+        "import inspect, adamslite.api.checks as module\n"
         "try:\n"
         "    module.many(None, None)\n"
         "except TypeError:\n"

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from adamslite.editing import layout, line_breaks, outline
+from adamslite.editing import layout, outline
 from adamslite.editing.layout import formatted
 from adamslite.language.diagnostics import Source
 
@@ -15,14 +15,13 @@ def test_a_line_without_a_place_to_break_is_not_joined_for_each_piece(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """4000 signs in a row were 8 million pieces."""
-    joined, pieces = line_breaks.joined, [0]
+    joined, pieces = layout.joined, [0]
 
     def counted(line: Any, continues: bool) -> str:
         pieces[0] += len(line)
         return joined(line, continues)
 
-    for module in (line_breaks, layout):
-        monkeypatch.setattr(module, "joined", counted)
+    monkeypatch.setattr(layout, "joined", counted)
     formatted(f"signs\nVARIABLE/1, FUNCTION={'+' * 4000}1\nEND\n", "deck")
     assert 4000 <= pieces[0] < 100_000
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import adamslite
-from adamslite.analyses.linearization.eigen import balance
+from adamslite.analyses.linearization.linearization import balance
 from adamslite.cli.main import main
 from adamslite.errors import RunFailed
 from adamslite.reading.read import read_commands

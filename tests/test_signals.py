@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from adamslite.verification.signals import arrival, moving_average, plateau
+from adamslite.verification.measures import arrival, moving_average, plateau
 
 
 def front(times: np.ndarray, at: float = 0.5, wide: float = 0.02) -> np.ndarray:

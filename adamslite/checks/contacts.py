@@ -1,4 +1,4 @@
-"""Rules about CONTACT: its laws, the shapes that meet, the parts they are on."""
+"""Rules about GRAPHICS, and about CONTACT: its laws, the shapes that meet, their parts."""
 
 from __future__ import annotations
 
@@ -164,3 +164,38 @@ def _pairs(deck: Deck, contact: Contact) -> Iterator[Diagnostic]:
                 contact, "contact-pair", "jgeom", hint=hint,
                 first=f"{i.label} ({i.shape})", second=f"{j.label} ({j.shape})",
             )  # fmt: skip
+
+
+# Lengths that have no direction.
+SIZES = (
+    "radius", "xscale", "yscale", "zscale", "major_radius", "minor_radius", "seg", "sides",
+)  # fmt: skip
+
+
+def shapes(deck: Deck) -> Iterator[Diagnostic]:
+    for each in deck.of(Graphics):
+        shape = each.shape
+        if shape is None:
+            yield diagnose(each, "no-shape", listed=", ".join(sorted(Graphics.needs)))
+            continue
+        if each.missing:
+            listed = ", ".join(each.missing)
+            yield diagnose(each, "shape-incomplete", "kind", kind=shape, listed=listed)
+        for field in _idle_fields(each, shape):
+            word, reason = Graphics.arguments[field].key, f"the shape is {shape}"
+            yield diagnose(each, "no-effect", field, word=word, reason=reason)
+        yield from positive(each, *SIZES)
+        yield from _radii(each)
+
+
+def _idle_fields(graphics: Graphics, shape: str) -> Iterator[str]:
+    """Fields that are given and do not belong to the shape."""
+    taken = {"kind", *Graphics.needs[shape], *Graphics.takes.get(shape, ())}
+    return (field for field in Graphics.arguments if graphics.given(field) and field not in taken)
+
+
+def _radii(graphics: Graphics) -> Iterator[Diagnostic]:
+    """The radii of a FRUSTUM: one of them may be zero."""
+    for field in ("bottom", "top"):
+        if (getattr(graphics, field) or 0.0) < 0.0:
+            yield diagnose(graphics, "not-positive", field, word=field.upper())

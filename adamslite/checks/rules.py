@@ -21,12 +21,15 @@ from adamslite.checks.bodies_and_elements import (
     zero_masses,
 )
 from adamslite.checks.constraints import CONSTRAINT_RULES
-from adamslite.checks.contacts import contact_laws, contact_shapes
+from adamslite.checks.contacts import contact_laws, contact_shapes, shapes
 from adamslite.checks.dimensions import DIMENSION_RULES
 from adamslite.checks.effective_mass import effective_masses
-from adamslite.checks.equations import unformed_equations
-from adamslite.checks.exponents import exponents_or_degrees
-from adamslite.checks.frictions import frictions
+from adamslite.checks.expressions import (
+    exponents_or_degrees,
+    expressions_too_large,
+    unformed_equations,
+)
+from adamslite.checks.forces import NFORCE_RULES, frictions
 from adamslite.checks.inert import (
     acts_on_flexible,
     changed_requests,
@@ -43,7 +46,6 @@ from adamslite.checks.markers import (
     owners,
 )
 from adamslite.checks.needless import NEEDLESS_RULES
-from adamslite.checks.nforces import NFORCE_RULES
 from adamslite.checks.posture import (
     facing_markers,
     inertia_at_mass_centre,
@@ -52,8 +54,6 @@ from adamslite.checks.posture import (
 from adamslite.checks.requests import REQUEST_RULES
 from adamslite.checks.rule import Rule, apply
 from adamslite.checks.runs import RUN_RULES, file_names
-from adamslite.checks.shapes import shapes
-from adamslite.checks.sizes import expressions_too_large
 from adamslite.checks.tables import TABLE_RULES
 from adamslite.deck.deck import Deck
 from adamslite.deck.named_places import with_named

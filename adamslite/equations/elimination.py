@@ -16,7 +16,7 @@ from adamslite.integrators.contract import WORK
 from adamslite.model.model import PART
 
 if TYPE_CHECKING:
-    from adamslite.equations.jacobian_blocks import JacobianBlocks
+    from adamslite.equations.layout import JacobianBlocks
     from adamslite.equations.numbering import Numbering
 
 

@@ -18,8 +18,7 @@ from adamslite.native.translate import Rows
 from adamslite.native.translate.records import address_of
 
 if TYPE_CHECKING:
-    from adamslite.equations.jacobian_blocks import JacobianBlocks
-    from adamslite.equations.layout import Layout
+    from adamslite.equations.layout import JacobianBlocks, Layout
     from adamslite.equations.numbering import Numbering
     from adamslite.kernels.groups import ShapeGroup
     from adamslite.language.statement import Statement

@@ -1,9 +1,17 @@
-"""The statements of a model by their faces and shapes, bound but not yet compiled."""
+"""The statements of a model by their faces and shapes, bound but not yet compiled.
+
+Results that are made of the same long chains of VARIABLEs share one kernel, which writes all:
+
+    v_1 = f_1(q)     v_2 = f_2(v_1)     ...     v_n = f_n(v_(n-1))
+
+A statement is evaluated with all VARIABLEs that are written out in it.  A kernel for each result
+would evaluate v_1 in each of them, n^2 / 2 functions; a kernel of all evaluates n.
+"""
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Hashable, Iterator
+from collections.abc import Hashable, Iterable, Iterator
 from dataclasses import dataclass, field
 from itertools import chain
 from typing import TYPE_CHECKING, Any
@@ -15,7 +23,6 @@ from adamslite.deck.statement_diagnostics import diagnose, diagnose_inside
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.gc_pause import without_collection
 from adamslite.kernels.binding import Binder, ForceLoop
-from adamslite.kernels.bundles import bundles
 from adamslite.kernels.columns import MOST_IN_ALL, Split, TooLarge, same, transposed
 from adamslite.kernels.face_writer import FaceWriter
 from adamslite.kernels.faces import faces, output_face
@@ -32,12 +39,16 @@ from adamslite.language.diagnostics import DeckError, Diagnostic
 from adamslite.language.interfaces import Key
 from adamslite.language.statement import Statement
 from adamslite.language.traced import Traced
+from adamslite.model.chains import Joined, long_chains
 from adamslite.model.model import Model
 from adamslite.native import compiler
 from adamslite.symbolic.types import Tree
 
 if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
+    from adamslite.language.interfaces import Key
+    from adamslite.language.statement import Statement
+    from adamslite.model.model import Model
 
 MOST_NAMED = 5
 
@@ -278,3 +289,31 @@ def _too_large(statement: Statement, large: TooLarge) -> Diagnostic:
     few = ", ".join(named[:MOST_NAMED]) + ", ..." * (len(named) > MOST_NAMED)
     hint = f"written out in it: {few}" if named else ""
     return diagnose(statement, code, hint=hint, most=large.most)
+
+
+def bundles(model: Model, writing: Iterable[Statement]) -> list[Bundle]:
+    """Those of the statements that share a VARIABLE that is made of more than a few others."""
+    others = {key for key in model.uses if model.variable_kind(key) != "inline"}
+    long = long_chains(model.uses, others)
+    if not long:
+        return []
+    joined = Joined()
+    for key in long:
+        joined.join(key, *(long & model.uses[key]))
+    of_chains: dict[Key, list[Statement]] = {}
+    for statement in writing:
+        found = [key for key in _taken(model, statement) if key in long]
+        if found:
+            joined.join(*found)
+            of_chains.setdefault(found[0], []).append(statement)
+    together: dict[Key, list[Statement]] = {}
+    for key, statements in of_chains.items():
+        together.setdefault(joined.name(key), []).extend(statements)
+    return [Bundle(tuple(each)) for each in together.values() if len(each) > 1]
+
+
+def _taken(model: Model, statement: Statement) -> Iterator[Key]:
+    """The VARIABLEs that the results of a statement take the values of."""
+    if model.acts(statement):
+        for node in model.outputs_of(statement):
+            yield from model.used_in(node)

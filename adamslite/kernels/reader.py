@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from adamslite.kernels.view import View
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from adamslite.kernels.reactions import reactions
 from adamslite.language.expression import OPERATORS
 from adamslite.language.function import find_function
 from adamslite.language.statement import class_of
 from adamslite.symbolic.graph import NAN, Node, power
 from adamslite.symbolic.graph import node as as_node
-from adamslite.symbolic.scope import Scope
-from adamslite.symbolic.types import Expr, Read, Tree
+from adamslite.symbolic.scope import Load, Scope
+from adamslite.symbolic.types import Expr, Physics, Read, Symbol, Tree
 
 
 class ExpressionReader:
@@ -104,3 +107,48 @@ def symbolic_view(
     else:
         own = [scope.symbol("z", n_bodies + node, c) for c in range(width)] if node >= 0 else []
     return View(cls, values, own, moving_view)
+
+
+class View:
+    """A statement as its physics sees it: frames, symbols, expressions, words."""
+
+    def __init__(
+        self,
+        cls: Physics,
+        fields: dict[str, Read],
+        unknowns: list[Symbol],
+        moving_view: Callable[[], View] | None = None,
+    ) -> None:
+        self.__dict__.update(fields)
+        self.cls = cls
+        self.unknowns = unknowns
+        self.moving_view = moving_view
+
+    if TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Read:
+            """A field."""
+
+    def own_loads(self, scope: Scope) -> list[Load]:
+        """Loads of a force, or the reactions of a constraint."""
+        if hasattr(self.cls, "loads"):
+            return self.cls.loads(self, scope)
+        with scope.everything_moves():
+            view = self.moving_view() if self.moving_view else self
+            return reactions(view.cls.constraints(view, scope), view.unknowns, scope)
+
+    def side(self, jflag: int) -> tuple[int | None, int | None]:
+        """The frame that is measured, and the only partner that counts (None: all)."""
+        sides = self.__dict__.get("sides")
+        return sides[jflag] if sides else (self.end(jflag), None)
+
+    def end(self, jflag: int) -> int | None:
+        """The frame called I (``jflag`` 0) or J: its own, or that of the (first) joint it acts
+        on.
+        """
+        known = self.__dict__
+        held = known.get("joint") or (known.get("joints") or (None,))[0]
+        if held is not None:
+            return held.end(jflag)
+        names = ("j", "jfloat", "j_part") if jflag else ("i",)
+        return next((known[name] for name in names if known.get(name) is not None), None)

@@ -18,14 +18,13 @@ from adamslite.language.not_supported import INSTEAD
 from adamslite.language.not_supported import STATEMENTS as MISSING_STATEMENTS
 from adamslite.language.statement import STATEMENTS
 from adamslite.manual.api import NAMES, python_name
-from adamslite.manual.arguments import argument_names, argument_page
 from adamslite.manual.commands import command
 from adamslite.manual.formats import result_formats
 from adamslite.manual.functions import function
 from adamslite.manual.integrators import integrator_page, integrators
 from adamslite.manual.markdown import HEAD, heading
 from adamslite.manual.messages import message
-from adamslite.manual.statements import statement, title_of
+from adamslite.manual.statements import argument_names, argument_page, statement, title_of
 from adamslite.notation import FUNCTIONS as IN_PYTHON
 from adamslite.results.outcomes import Outcome
 

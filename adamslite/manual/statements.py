@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
 from inspect import cleandoc, getattr_static
 
 from adamslite.language.expression import Node, to_text
@@ -117,3 +118,31 @@ def keywords_of(keyword: str) -> list[str]:
     known = (name for names, _ in getattr(cls, "known", ()) for name in names.split(", "))
     own = (key for each in cls.arguments.values() if not each.bare for key in each.keys)
     return [*own, *known]
+
+
+USES = ("statement", "argument", "value", "unit", "default", "meaning")
+
+
+def argument_names() -> list[str]:
+    """Every keyword of an argument, once."""
+    return [*dict.fromkeys(key for keyword in STATEMENTS for key in keywords_of(keyword))]
+
+
+def argument_page(name: str) -> str:
+    """One argument: the statements that have it, those with the same meaning in one row."""
+    found: dict[tuple[str, ...], list[str]] = {}
+    for keyword, row in _rows(name):
+        found.setdefault(tuple(row), []).append(keyword)
+    rows = ((", ".join(keywords), *row) for row, keywords in found.items())
+    return f"## {name}: an argument\n\n{table(USES, rows)}"
+
+
+def _rows(name: str) -> Iterator[tuple[str, Row]]:
+    """Keyword of a statement and the row of the argument in its table."""
+    for keyword, cls in sorted(STATEMENTS.items()):
+        for each in cls.arguments.values():
+            if name in each.keys and not each.bare:
+                yield keyword, argument_row(each)
+        for names, meaning in getattr(cls, "known", ()):
+            if name in names.split(", "):
+                yield keyword, (f"`{name}`", "", "", "", f"{meaning}; passed over")

@@ -5,6 +5,7 @@ A conjugate pair of eigenvalues is one mode; modes are numbered by undamped freq
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -12,8 +13,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from adamslite.errors import UsageError
-from adamslite.outputs.second_order import save_second_order
 from adamslite.outputs.whole_files import PLAIN, whole_file
+from adamslite.results.linearization import SecondOrder
 
 if TYPE_CHECKING:
     from adamslite.elements.linear import Linear
@@ -204,3 +205,14 @@ def _json(linearization: Linearization) -> str:
 
 def _pairs(values: Iterable[complex]) -> Iterator[list[float]]:
     return ([float(each.real), float(each.imag)] for each in values)
+
+
+def save_second_order(made: Linearized, path: Path) -> list[Path]:
+    """M, B, K, F and the basis as JSON; matrices are lists of rows."""
+    found = made.model.second_order
+    assert found is not None  # the command reports a model without
+    names = {"coordinates": list(made.model.coordinates), "inputs": list(made.model.inputs)}
+    matrices = {name: getattr(found, name).tolist() for name in SecondOrder._fields}
+    with whole_file(path) as stream:
+        stream.write(json.dumps(names | matrices | {"note": made.model.note}, indent=1) + "\n")
+    return [path]

@@ -23,6 +23,6 @@ Physics: TypeAlias = Any
 """The class of a statement, for ``loads``, ``constraints``, ``equation``, ``stored``: the methods
 that are called with a view of the statement.  Which of them there are depends on the statement."""
 Seen: TypeAlias = Any
-"""A statement as its physics sees it, :class:`adamslite.kernels.view.View`.  Where the deck has an
-id, an expression or a number, its field is a frame, another such statement, an ``Expr``; what
+"""A statement as its physics sees it, :class:`adamslite.kernels.reader.View`.  Where the deck has
+an id, an expression or a number, its field is a frame, another such statement, an ``Expr``; what
 ``derived`` returns is there too.  No class declares these types."""

@@ -22,7 +22,7 @@ from kinks import REFERENCE, brute_force, growing, windows  # noqa: E402  (besid
 
 from adamslite.plots import style  # noqa: E402
 from adamslite.results.results import Results  # noqa: E402
-from adamslite.verification.signals import moving_average, plateau  # noqa: E402
+from adamslite.verification.measures import moving_average, plateau  # noqa: E402
 from adamslite.verification.verification import solve_quietly  # noqa: E402
 
 SIZES = (15, 30, 60, 120, 240, 480)

@@ -2,6 +2,15 @@
 
 Node k of span p is MARKER/1000 p + k, counted from the wheel, from the start of the route without
 one. A span between two wheels is one spring; a run that continues pulls with T0 + rho c v.
+
+The half section beside a wheel whose axle moves, with e from the wheel at x_0 along the cable, H a
+section, S the cable that the wheel brings:
+
+    T       = T_section + rho H/2 (e.g - S" - e.x_0")              at the rim
+    force   = T_section e - rho H/2 (x_0" + S" e - g) - rho S'^2 e          on the carriage
+
+The paper's form has no S". With form ale the cable also has the accelerations of what flows, as
+beside a weight that slides.
 """
 
 from dataclasses import replace
@@ -14,17 +23,18 @@ from adamslite.cables.model.model_choice import CableModel
 from adamslite.cables.statements import sliders
 from adamslite.cables.statements.around import Row, write_around, write_clamp
 from adamslite.cables.statements.capstan import half_section, turned
-from adamslite.cables.statements.carriages import along_axle, carried_half
 from adamslite.cables.statements.ends import end
 from adamslite.cables.statements.forms import (
     AXES,
     Side,
+    gravity,
     grown,
     grown_tip,
     length_variables,
     number,
     point,
     section,
+    vforce,
 )
 from adamslite.cables.statements.links import borne
 from adamslite.cables.statements.pieces import (
@@ -286,3 +296,30 @@ def _ends(spec: Spec, model: CableModel, found: list[Piece]) -> str:
         text += end(spec, i, 0.0 if each.slides else half) if not each.is_wheel else ""
         text += sliders.slider(spec, i) if each.slides else ""
     return text
+
+
+def along_axle(spec: Spec, wheel: int, i: int, j: int) -> str:
+    """e.x_0" of the axle of a wheel whose cable goes from MARKER/i to MARKER/j [m/s^2]."""
+    axle = spec.marker(wheel)
+    parts = "+".join(f"ACC{a}({axle})*D{a}({j},{i})" for a in AXES)
+    return f"({parts})/DM({j},{i})"
+
+
+def carried_half(spec: Spec, model: CableModel, piece: Piece, j: int, axes: str) -> str:
+    """VFORCE of the half section of a piece that goes from its wheel to MARKER/j."""
+    root, i, p = spec.route[piece.root], piece.first, piece.number
+    if root.leans:
+        return ""
+    comment = "! Mass of the half section beside the wheel.\n"
+    if model.level == 3 and model.form != "paper":
+        return comment + sliders.through(p, i, j, axes)
+    half, flow = half_section(model, piece, spec), f"({feed(spec, piece, 1)})**2"
+    if model.level < 3:
+        flow += f"+{half}*({feed(spec, piece, 2)})"
+    light = spec.lightness(piece.place)
+    share = "" if light == 1.0 else f"{number(light)}*"
+    components = [
+        f"-rho*({half}*(ACC{a}({i})-{share}{gravity(a)})+({flow})*D{a}({j},{i})/DM({j},{i}))"
+        for a in axes
+    ]
+    return comment + vforce(i, i, axes, components)
