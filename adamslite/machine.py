@@ -118,6 +118,13 @@ def free_memory() -> int | None:
     return min((each for each in found if each is not None), default=None)
 
 
+def processors() -> int:
+    """How many processors this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
 def free_disk(folder: Path) -> int | None:
     """Room in a folder [byte]; None where nobody knows."""
     try:

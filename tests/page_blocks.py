@@ -220,7 +220,7 @@ def run(command: str, folder: Path) -> tuple[int, str]:
     """Exit code and all that a command prints, errors among it."""
     program, *arguments = shlex.split(command)
     printed = io.StringIO()
-    shown = patch("adamslite.page.desktop.open_page", return_value=True)
+    shown = patch("adamslite.page.showing.open_page", return_value=True)
     with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed), shown:
         if program == "adamslite":
             sys.path.insert(0, str(folder))  # as `python -m` and routines of users have it

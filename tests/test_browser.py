@@ -13,7 +13,7 @@ import pytest
 from browsing import PHONE, Opened
 from sample_page import ARM, END, FRAMES, TURNS, UPRIGHT, bare, crank, sample, solid, swarm, weight
 
-from adamslite.page.frame import framed
+from adamslite.page.page import framed
 
 pytestmark = pytest.mark.browser
 

@@ -13,9 +13,9 @@ from scipy.spatial.transform import Rotation
 
 import adamslite as al
 from adamslite.drawing.arrays import Block
-from adamslite.drawing.attitudes import continuous, from_313, from_axes
 from adamslite.drawing.decimation import frames, points
 from adamslite.drawing.derived_shapes import tree
+from adamslite.drawing.frames import continuous, from_313, from_axes
 from adamslite.drawing.scene import Scene, scene
 from adamslite.results.results import Results
 

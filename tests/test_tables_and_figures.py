@@ -133,7 +133,7 @@ def test_wrong_channels_and_files_of_figures(thrown: al.Results) -> None:
 def opened(monkeypatch: Any) -> list[Path]:
     """What a browser would open."""
     pages: list[Path] = []
-    monkeypatch.setattr("adamslite.page.desktop.open_page", lambda page: pages.append(page) or True)
+    monkeypatch.setattr("adamslite.page.showing.open_page", lambda page: pages.append(page) or True)
     return pages
 
 
@@ -145,7 +145,7 @@ def test_a_page_is_written_and_opened(opened: list[Path]) -> None:
 
 
 def test_a_page_that_no_browser_opens(thrown: al.Results, monkeypatch: Any) -> None:
-    monkeypatch.setattr("adamslite.page.desktop.open_page", lambda page: False)
+    monkeypatch.setattr("adamslite.page.showing.open_page", lambda page: False)
     with pytest.warns(UserWarning, match=r"no browser could be opened; open results\.html"):
         assert al.view(thrown) == Path("results.html")
 

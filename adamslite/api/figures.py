@@ -127,7 +127,7 @@ class Frame(str):
     """The text of a page; a notebook shows it in a frame."""
 
     def _repr_html_(self) -> str:
-        from adamslite.page.frame import framed
+        from adamslite.page.page import framed
 
         return framed(self)
 
@@ -208,7 +208,7 @@ def view(
 
 def _opened(path: Path, show: bool | None, unnamed: bool) -> Path:
     """A page that is written, opened where that is asked for."""
-    from adamslite.page.desktop import open_page
+    from adamslite.page.showing import open_page
 
     if (show or (show is None and unnamed)) and not open_page(path):
         warnings.warn(f"no browser could be opened; open {path} yourself", stacklevel=3)

@@ -5,17 +5,17 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable
 from contextlib import closing
-from pathlib import Path
 from typing import Any
 
 from adamslite.analyses.setup.subject import Subject, deck_of
 from adamslite.api.inputs import CommandSource, User, given_options, inputs
+from adamslite.api.tools import reference_of
 from adamslite.fitting import fit as fits
 from adamslite.fitting.parameters import Bounds
 from adamslite.fitting.record import Fit
 from adamslite.progress import Progress, progress_of
 from adamslite.results.results import Results
-from adamslite.verification.reference_file import Reference, read_reference
+from adamslite.verification.reference_file import Reference
 
 
 def fit(
@@ -89,13 +89,5 @@ def fit(
     wanted = fits.Wanted(by, bounds, of, (start, until))
     with closing(progress_of(progress)) as shown:
         return fits.fit(
-            deck_of(given.subject), _reference(measured), wanted, given.commands, options, shown
+            deck_of(given.subject), reference_of(measured), wanted, given.commands, options, shown
         )
-
-
-def _reference(given: Results | Reference | str | os.PathLike[str]) -> Reference:
-    if isinstance(given, Reference):
-        return given
-    if isinstance(given, Results):
-        return Reference(path=Path(), table=given)
-    return read_reference(Path(given))

@@ -71,7 +71,7 @@ def compare(
     if interpolate is not None and interpolate not in INTERPOLATIONS:
         raise UsageError(f"--interpolate {interpolate}: there are {', '.join(INTERPOLATIONS)}")
     found = results if isinstance(results, Results) else Results.load(Path(results))
-    judge = _reference(reference)
+    judge = reference_of(reference)
     judge = replace(judge, interpolate=interpolate or judge.interpolate)
     allowed = tolerance if callable(tolerance) else None
     if tolerance is not None and not callable(tolerance):
@@ -85,7 +85,8 @@ def compare(
     return comparison
 
 
-def _reference(given: Results | Reference | str | os.PathLike[str]) -> Reference:
+def reference_of(given: Results | Reference | str | os.PathLike[str]) -> Reference:
+    """References, given as such, as results or as a file."""
     if isinstance(given, Reference):
         return given
     if isinstance(given, Results):

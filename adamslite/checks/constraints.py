@@ -6,6 +6,7 @@ from collections.abc import Container, Iterable, Iterator
 from math import dist
 from operator import ne
 
+from adamslite.checks.bodies_and_elements import body_of
 from adamslite.checks.rule import Rule, needs
 from adamslite.deck.deck import Deck
 from adamslite.deck.statement_diagnostics import diagnose, diagnose_inside
@@ -18,7 +19,6 @@ from adamslite.elements.gcon import Gcon
 from adamslite.elements.gear import Gear
 from adamslite.elements.joint import Joint
 from adamslite.elements.jprim import Jprim
-from adamslite.elements.marker import Marker
 from adamslite.elements.matrix import Matrix
 from adamslite.elements.motion import Motion
 from adamslite.elements.ptcv import Ptcv
@@ -44,11 +44,6 @@ HELD = {
 }  # fmt: skip
 
 
-def _owner(deck: Deck, marker: Key | None) -> tuple[str, Key] | None:
-    found = deck.find(Marker, marker) if marker is not None else None
-    return found.owner if found else None
-
-
 def _turns(deck: Deck, owner: tuple[str, Key] | None) -> bool:
     """Whether a body can rotate; an unknown body counts as one that can."""
     if owner is None:
@@ -61,7 +56,7 @@ def pairs(deck: Deck) -> Iterator[Diagnostic]:
     found: list[Jprim | Motion | Ptcv | Cvcv]
     found = [*deck.of(Jprim), *deck.of(Motion), *deck.of(Ptcv), *deck.of(Cvcv)]
     for each in found:
-        here, there = _owner(deck, each.i), _owner(deck, each.j)
+        here, there = body_of(deck, each.i), body_of(deck, each.j)
         if here and here == there:
             yield diagnose(each, "same-body", "j", owner=f"{here[0]}/{here[1]}")
             continue
@@ -141,14 +136,14 @@ def gears(deck: Deck) -> Iterator[Diagnostic]:
             count = len(gear.joints)
             yield diagnose(gear, "coupled-count", "joints", count=count, expected="two")
             continue
-        carrier = _owner(deck, gear.cv)
+        carrier = body_of(deck, gear.cv)
         for key in gear.joints:
             joint = deck.find(Joint, key)
             if joint and not joint.coordinates:
                 yield diagnose(
                     gear, "no-such-freedom", "joints", joint=joint.label, kind=joint.kind
                 )
-            elif joint and carrier and _owner(deck, joint.j) not in (carrier, None):
+            elif joint and carrier and body_of(deck, joint.j) not in (carrier, None):
                 owner = f"{carrier[0]}/{carrier[1]}"
                 yield diagnose(gear, "not-on-carrier", "cv", joint=joint.label, owner=owner)
 
@@ -313,7 +308,7 @@ def floating_markers(deck: Deck) -> Iterator[Diagnostic]:
 def _floats(deck: Deck, each: Statement, field: str, base: Key) -> Iterator[Diagnostic]:
     """Whether a floating marker is on the part of the marker that a curve is fixed to."""
     key = getattr(each, field)
-    floats, lies = _owner(deck, key), _owner(deck, base)
+    floats, lies = body_of(deck, key), body_of(deck, base)
     if floats and lies and floats != lies:
         owner = f"{floats[0]}/{floats[1]}"
         yield diagnose(each, "foreign-marker", field, word=field.upper(), key=key, owner=owner)

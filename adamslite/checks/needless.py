@@ -11,10 +11,9 @@ from dataclasses import replace
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from adamslite.checks.mobile import looked_at, places_of, size_of
 from adamslite.checks.reach import out_of_reach
 from adamslite.checks.rule import Rule
-from adamslite.checks.stiff import stiff_elements
+from adamslite.checks.stiff import looked_at, places_of, size_of, stiff_elements
 from adamslite.deck.deck import Deck
 from adamslite.deck.statement_diagnostics import diagnose, diagnose_all
 from adamslite.elements.joint import Joint

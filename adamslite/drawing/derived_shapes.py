@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from adamslite.drawing.attitudes import from_axes
 from adamslite.drawing.drawing import Drawing
+from adamslite.drawing.frames import from_axes
 from adamslite.elements.units import Units
 from adamslite.language import units
 from adamslite.model.model import Body

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from adamslite.drawing.attitudes import (
+from adamslite.drawing.frames import (
     UPRIGHT,
+    Frames,
     continuous,
     from_313,
     from_axes,
@@ -20,7 +21,6 @@ from adamslite.drawing.attitudes import (
     product,
     rotated,
 )
-from adamslite.drawing.frames import Frames
 from adamslite.language.interfaces import Key
 from adamslite.model.model import Body, Model
 from adamslite.results.results import Results

@@ -15,6 +15,7 @@ from adamslite.language.spelling import spelled
 from adamslite.language.statement import Argument, Statement
 from adamslite.language.text import COMMENT
 from adamslite.reading.statement_reader import known_keywords
+from adamslite.syntax.syntax_errors import open_brackets
 from adamslite.syntax.tokens import CLOSES, Tokens
 
 STATEMENT, ARGUMENT, OPTION, ID, FUNCTION, VARIABLE, MESSAGE = range(7)
@@ -67,7 +68,7 @@ def _inside(content: Content, cls: type[Statement], tokens: Tokens) -> Iterator[
     last = [token[0] for token in tokens[-2:]]
     closed = "BACKSLASH" in last and last[-1] in ("BACKSLASH", "COMMA")
     argument = None if closed else _argument_at(cls, tokens)
-    opened = _opened(tokens)
+    opened = open_brackets(tokens)
     ready = bool(opened) or last[-1] != "COMMA"
     if argument and argument.kind == "expression":
         yield from _expression(content, tokens, opened)
@@ -88,17 +89,6 @@ def _argument_at(cls: type[Statement], tokens: Tokens) -> Argument | None:
             meaning = words.keyed(tokens[number - 1][1])
             return meaning if isinstance(meaning, Argument) else None
     return None
-
-
-def _opened(tokens: Tokens) -> list[int]:
-    """The numbers of the brackets that are open at the end."""
-    found: list[int] = []
-    for number, token in enumerate(tokens):
-        if token[0] in CLOSES:
-            found.append(number)
-        elif token[0] in CLOSES.values() and found:
-            found.pop()
-    return found
 
 
 def _expression(content: Content, tokens: Tokens, opened: list[int]) -> Iterator[Suggestion]:

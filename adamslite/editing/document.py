@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 
@@ -12,7 +13,6 @@ from adamslite.deck.deck import Deck
 from adamslite.deck.element_switch import Switch
 from adamslite.deck.names import Names
 from adamslite.deck.user_bindings import bindings
-from adamslite.editing.moved import moved
 from adamslite.editing.outline import Written, head_end, statements
 from adamslite.editing.rereading import Memory, Notebook, Rereading, Use
 from adamslite.gc_pause import without_collection
@@ -253,3 +253,38 @@ def _switched(command: object, source: Source) -> Iterator[Use]:
             key: Key = key_of(word)
             if key in command.ids:
                 yield Use(command.kind, key, token[2], end_of(token))
+
+
+def moved(diagnostics: Iterable[Diagnostic], old: Source, new: Source) -> list[Diagnostic]:
+    """The messages about lines that are in both texts; without what they refer to elsewhere."""
+    found = [*diagnostics]
+    if not found:
+        return []
+    head, tail = same_lines(old.text.split("\n"), new.text.split("\n"))
+    end, shift = len(old.starts) - tail, len(new.starts) - len(old.starts)
+    kept = []
+    for each in found:
+        places = [_moved(span, head, end, shift) for span in each.everywhere]
+        if all(places):
+            known = tuple(filter(None, places))
+            more = known if each.places else ()
+            kept.append(replace(each, span=known[0], places=more, related=(), fixes=()))
+    return kept
+
+
+def same_lines(before: list[str], after: list[str]) -> tuple[int, int]:
+    """How many lines at the beginning and at the end are the same."""
+    least = min(len(before), len(after))
+    head = next((n for n in range(least) if before[n] != after[n]), least)
+    rest = least - head
+    tail = next((n for n in range(rest) if before[-1 - n] != after[-1 - n]), rest)
+    return head, tail
+
+
+def _moved(span: Span, head: int, end: int, shift: int) -> Span | None:
+    """The span in the new text; None where it touches lines that have changed."""
+    if span.end_line <= head:
+        return span
+    if span.line > end:
+        return replace(span, line=span.line + shift, end_line=span.end_line + shift)
+    return None

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from lsprotocol import types as lsp
 
-from adamslite.editing.document import Content
-from adamslite.editing.moved import same_lines
+from adamslite.editing.document import Content, same_lines
 from adamslite.language.diagnostics import Span
 
 UNITS = {"utf-8": ("utf-8", 1), "utf-16": ("utf-16-le", 2)}

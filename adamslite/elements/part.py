@@ -10,7 +10,13 @@ its columns are the body axes in ground.
 
 from __future__ import annotations
 
-from adamslite.elements.bases.arguments import body_angles, body_origin, body_x_point, body_z_point
+from adamslite.elements.bases.arguments import (
+    body_angles,
+    body_origin,
+    body_rate,
+    body_x_point,
+    body_z_point,
+)
 from adamslite.language.statement import (
     Statement,
     flag,
@@ -51,28 +57,12 @@ class Part(Statement):
     reuler: tuple[float, ...] = body_angles()
     zg: tuple[float, ...] | None = body_z_point()
     xg: tuple[float, ...] | None = body_x_point()
-    vx: float = number(
-        "VX",
-        start=True,
-        unit="length/time",
-        default=0.0,
-        help="initial velocity of CM along x",
-    )
-    vy: float = number(
-        "VY", start=True, unit="length/time", default=0.0, help="initial velocity of CM along y"
-    )
-    vz: float = number(
-        "VZ", start=True, unit="length/time", default=0.0, help="initial velocity of CM along z"
-    )
-    wx: float = number(
-        "WX", start=True, unit="angle/time", default=0.0, help="initial rate about x of CM or WM"
-    )
-    wy: float = number(
-        "WY", start=True, unit="angle/time", default=0.0, help="initial rate about y of CM or WM"
-    )
-    wz: float = number(
-        "WZ", start=True, unit="angle/time", default=0.0, help="initial rate about z of CM or WM"
-    )
+    vx: float = body_rate("VX", "length", "velocity of CM along x")
+    vy: float = body_rate("VY", "length", "velocity of CM along y")
+    vz: float = body_rate("VZ", "length", "velocity of CM along z")
+    wx: float = body_rate("WX", "angle", "rate about x of CM or WM")
+    wy: float = body_rate("WY", "angle", "rate about y of CM or WM")
+    wz: float = body_rate("WZ", "angle", "rate about z of CM or WM")
     vm: int | str | None = reference(
         "VM", to="MARKER", start=True, help="marker whose axes VX, VY, VZ are along; else ground"
     )

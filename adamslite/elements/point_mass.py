@@ -7,7 +7,13 @@ Equation::
 
 from __future__ import annotations
 
-from adamslite.elements.bases.arguments import body_angles, body_origin, body_x_point, body_z_point
+from adamslite.elements.bases.arguments import (
+    body_angles,
+    body_origin,
+    body_rate,
+    body_x_point,
+    body_z_point,
+)
 from adamslite.language.statement import Statement, number, reference, statement, words
 
 
@@ -28,15 +34,9 @@ class PointMass(Statement):
     reuler: tuple[float, ...] = body_angles()
     zg: tuple[float, ...] | None = body_z_point()
     xg: tuple[float, ...] | None = body_x_point()
-    vx: float = number(
-        "VX", start=True, unit="length/time", default=0.0, help="initial velocity, x in ground"
-    )
-    vy: float = number(
-        "VY", start=True, unit="length/time", default=0.0, help="initial velocity, y in ground"
-    )
-    vz: float = number(
-        "VZ", start=True, unit="length/time", default=0.0, help="initial velocity, z in ground"
-    )
+    vx: float = body_rate("VX", "length", "velocity, x in ground")
+    vy: float = body_rate("VY", "length", "velocity, y in ground")
+    vz: float = body_rate("VZ", "length", "velocity, z in ground")
     exact: tuple[str, ...] = words(
         "EXACT",
         start=True,

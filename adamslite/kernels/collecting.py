@@ -25,7 +25,6 @@ from adamslite.gc_pause import without_collection
 from adamslite.kernels.binding import Binder, ForceLoop
 from adamslite.kernels.columns import MOST_IN_ALL, Split, TooLarge, same, transposed
 from adamslite.kernels.face_writer import FaceWriter
-from adamslite.kernels.faces import faces, output_face
 from adamslite.kernels.groups import (
     LEVELS,
     Binding,
@@ -317,3 +316,32 @@ def _taken(model: Model, statement: Statement) -> Iterator[Key]:
     if model.acts(statement):
         for node in model.outputs_of(statement):
             yield from model.used_in(node)
+
+
+def faces(statement: Statement, model: Model) -> Iterator[str]:
+    """What a statement contributes; switched off, it still counts turns for when it is on again."""
+    if not model.acts(statement):
+        if counted(statement):
+            yield "counted"
+        if isinstance(statement, Constraint) and statement.counts_from_start:
+            yield "since start"
+        return
+    if model.merges(statement):
+        return
+    if hasattr(statement, "loads"):
+        yield "loads"
+    if isinstance(statement, Constraint):
+        rate = statement.is_rate(model)
+        yield from ("reactions", "velocity", "acceleration") if rate else LEVELS
+    if hasattr(statement, "relation"):
+        yield "sensor"
+    if hasattr(statement, "equation"):
+        kind = model.variable_kind(statement.key) if statement.keyword == "VARIABLE" else "loop"
+        if kind != "inline":
+            yield "equation" if kind == "loop" else "signal"
+
+
+def output_face(statement: Statement) -> Iterator[str]:
+    """The values that it writes, if there are any."""
+    if statement.result_names:
+        yield "output"

@@ -11,8 +11,7 @@ from collections.abc import Iterable, Iterator
 
 from adamslite.caching.entries import recall, recall_json
 from adamslite.deck.statement_diagnostics import diagnose_inside
-from adamslite.kernels.collecting import Groups, add, bound
-from adamslite.kernels.faces import faces, output_face
+from adamslite.kernels.collecting import Groups, add, bound, faces, output_face
 from adamslite.kernels.groups import (
     Bundle,
     Kernels,

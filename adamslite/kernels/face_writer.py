@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 from adamslite.kernels.binding import Binder
 from adamslite.kernels.groups import WITH_JACOBIAN, Meta
-from adamslite.kernels.reactions import reactions
-from adamslite.kernels.reader import ExpressionReader, symbolic_view
+from adamslite.kernels.reader import ExpressionReader, reactions, symbolic_view
 from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.types import Expr, Tree
 

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING
 
-from adamslite.kernels.reactions import reactions
 from adamslite.language.expression import OPERATORS
 from adamslite.language.function import find_function
 from adamslite.language.statement import class_of
 from adamslite.symbolic.graph import NAN, Node, power
 from adamslite.symbolic.graph import node as as_node
-from adamslite.symbolic.scope import Load, Scope
-from adamslite.symbolic.types import Expr, Physics, Read, Symbol, Tree
+from adamslite.symbolic.scope import ZERO, Load, Scope, cross, scale
+from adamslite.symbolic.types import Expr, Leaf, Physics, Read, Symbol, Tree
 
 
 class ExpressionReader:
@@ -152,3 +151,31 @@ class View:
             return held.end(jflag)
         names = ("j", "jfloat", "j_part") if jflag else ("i",)
         return next((known[name] for name in names if known.get(name) is not None), None)
+
+
+def reactions(rows: Iterable[Expr], multipliers: Sequence[Symbol], scope: Scope) -> list[Load]:
+    """-G^T lam as loads: what a constraint of rows g and multipliers lam exerts.
+
+    A row g gives the force -lam dg/dd on I of each relative position d(i,j), the opposite on J,
+    and the torque -lam sum x_c cross dg/dx_c on the part of each axis used; for velocity rows d
+    and x are replaced by v and w (Jourdain's principle).
+    """
+    loads = []
+    for row, lam in zip(rows, multipliers, strict=True):
+        groups: dict[Leaf, list[Expr]] = {}
+        gradient = scope.slope.gradient(row)
+        for symbol in sorted(gradient, key=str):
+            leaf = scope.leaves[symbol]
+            if leaf[0] in ("d", "x", "v", "w"):
+                groups.setdefault(leaf[:-1], [0, 0, 0])[leaf[-1]] = gradient[symbol]
+        rates = any(leaf[0] in ("v", "w") for leaf in groups)
+        for leaf, slope in groups.items():
+            pull = scale(-lam, (slope[0], slope[1], slope[2]))
+            if leaf[0] == ("v" if rates else "d"):
+                loads.append(Load(leaf[1], pull, ZERO, leaf[2]))
+            elif leaf[0] == "w":
+                loads.append(Load(leaf[1], ZERO, pull, leaf[2]))
+            elif leaf[0] == "x" and not rates and scope.turns(leaf[1]):
+                axis = scope.vector("x", leaf[1], leaf[2])
+                loads.append(Load(leaf[1], ZERO, cross(axis, pull)))
+    return loads

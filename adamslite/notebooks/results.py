@@ -8,8 +8,7 @@ from adamslite.drawing.run_deck import deck_of, need_its_bodies
 from adamslite.errors import FormatError
 from adamslite.language.diagnostics import DeckError
 from adamslite.notebooks.markup import folded, marked, paragraph, rows_table
-from adamslite.page.frame import framed
-from adamslite.page.page import page
+from adamslite.page.page import framed, page
 from adamslite.results.results import Results
 from adamslite.results.summary import ending, figures, notes
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -62,3 +64,16 @@ def write_motion(
     if suffix == ".png" and look.time is None:
         raise UsageError(f"'{path}': a picture is of one time, and none is given")
     draw(text, path, deck, results, look.time, look.size, dict(look.asked))
+
+
+def open_page(page: Path) -> bool:
+    """Whether a browser has opened it."""
+    import webbrowser
+
+    return _has_desktop() and webbrowser.open(page.resolve().as_uri())
+
+
+def _has_desktop() -> bool:
+    """Whether a window can open: elsewhere a browser for text would take the terminal."""
+    unix = sys.platform not in ("win32", "darwin")
+    return not unix or any(map(os.environ.get, ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER")))

@@ -6,7 +6,7 @@ the first time.
 """
 
 from adamslite.progress.analysis import AnalysisProgress
-from adamslite.progress.base import Progress, RunState
+from adamslite.progress.base import Progress, RunsState, RunState
 from adamslite.progress.choice import progress_of
 from adamslite.progress.terminal import SentenceProgress, TalkingProgress
 
@@ -14,6 +14,7 @@ __all__ = [
     "AnalysisProgress",
     "Progress",
     "RunState",
+    "RunsState",
     "SentenceProgress",
     "TalkingProgress",
     "progress_of",

@@ -57,6 +57,18 @@ class RunState:
         return "steps"
 
 
+class RunsState(RunState):
+    """``time`` and ``steps`` are the runs that are done, ``end`` is how many there are."""
+
+    @property
+    def reached(self) -> str:
+        return f"{self.steps} of {self.end:g} runs"
+
+    @property
+    def counted(self) -> str:
+        return "runs"
+
+
 class Progress:
     """Reports nothing; the base of those that do."""
 

@@ -27,7 +27,7 @@ from adamslite.language.diagnostics import DeckError, Source
 from adamslite.model.model import Model
 from adamslite.model.reduction import kept_apart
 from adamslite.page.page import page_of_scene
-from adamslite.progress import Progress
+from adamslite.progress import Progress, RunsState
 from adamslite.reading.read import commands_of
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
@@ -35,7 +35,6 @@ from adamslite.results.selection import selected
 from adamslite.sweeps.job import FAULT, INVALID
 from adamslite.sweeps.measures import parsed
 from adamslite.sweeps.origin import origin_of
-from adamslite.sweeps.progress import RunsState
 from adamslite.sweeps.record import Sweep
 from adamslite.variation.decks import with_values
 

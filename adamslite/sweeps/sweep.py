@@ -13,6 +13,7 @@ from uuid import uuid4
 
 import numpy as np
 
+from adamslite import machine
 from adamslite.analyses.setup.run_options import checked, within_memory
 from adamslite.analyses.setup.subject import kernels_of, prepared_for
 from adamslite.caching.program import program
@@ -24,7 +25,7 @@ from adamslite.errors import FormatError, UsageError
 from adamslite.kept_scene import tables_of
 from adamslite.model.reduction import kept_apart
 from adamslite.outputs.whole_files import need_writable
-from adamslite.progress import Progress
+from adamslite.progress import Progress, RunsState
 from adamslite.reading.numbers import Named
 from adamslite.results.channels import describe, of_argument, unit_symbols
 from adamslite.results.outcomes import Outcome
@@ -33,10 +34,9 @@ from adamslite.sweeps import netcdf
 from adamslite.sweeps.job import AHEAD, FAULT, Job, Run
 from adamslite.sweeps.measures import of_columns, parsed
 from adamslite.sweeps.origin import origin_texts
-from adamslite.sweeps.progress import RunsState
 from adamslite.sweeps.ranges import GRID, Varied, ranges_of, sampled
 from adamslite.sweeps.record import Sweep
-from adamslite.sweeps.workers import PROCESSES, THREADS, carried_out, processors
+from adamslite.sweeps.workers import PROCESSES, THREADS, carried_out
 from adamslite.variation.decks import variable_of
 
 #: The file is written this often [s], and never more than this share of the time goes into it.
@@ -163,7 +163,7 @@ def _workers(means: Means) -> int:
     if means.kind not in (PROCESSES, THREADS):
         raise UsageError(f"{means.kind}: workers are {PROCESSES} or {THREADS}")
     if means.workers is None:
-        return processors()
+        return machine.processors()
     if not isinstance(means.workers, int) or means.workers < 1:
         raise UsageError(f"{means.workers} workers: it must be a whole number, at least 1")
     return means.workers

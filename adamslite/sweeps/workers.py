@@ -42,13 +42,6 @@ LOOK = 0.5
 _job: Job | None = None
 
 
-def processors() -> int:
-    """How many this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
-
-
 def carried_out(
     job: Job, numbers: Sequence[int], workers: int, kind: str = PROCESSES
 ) -> Iterator[list[Run]]:

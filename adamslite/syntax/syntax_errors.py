@@ -143,7 +143,8 @@ def _kind(tokens: Tokens, at: int) -> str:
     return tokens[at][0] if at < len(tokens) else "END"
 
 
-def _open_brackets(tokens: Tokens) -> list[int]:
+def open_brackets(tokens: Tokens) -> list[int]:
+    """The numbers of the brackets that are open at the end."""
     stack: list[int] = []
     for number, token in enumerate(tokens):
         if token[0] in CLOSES:
@@ -158,7 +159,7 @@ def _statement_mistake(tokens: Tokens, at: int) -> Mistake:
     kind = _kind(tokens, at)
     if at < 2:
         return _header_mistake(tokens, at, kind)
-    if mistake := _bracket_mistake(tokens, _open_brackets(tokens[:at]), here, kind):
+    if mistake := _bracket_mistake(tokens, open_brackets(tokens[:at]), here, kind):
         return mistake
     if tokens[at - 1][0] == "EQUAL":
         return Mistake("missing-value", at - 2, at - 1, {"word": tokens[at - 2][1]})
@@ -209,7 +210,7 @@ def _keywords(item: Tokens) -> list[str]:
 
 def _without_item(tokens: Tokens, at: int) -> tuple[Tokens, Tokens]:
     """The statement without the item that token number ``at`` spoils, and that item."""
-    opened = _open_brackets(tokens[:at])
+    opened = open_brackets(tokens[:at])
     kind = _kind(tokens, at)
     if opened and kind in ("END", "EQUAL", "BACKSLASH"):
         start = _item_start(tokens, opened[0])
@@ -243,7 +244,7 @@ def _item_start(tokens: Tokens, at: int) -> int:
 
 def _is_argument(tokens: Tokens, at: int) -> bool:
     """Whether a token is inside the brackets of a function."""
-    opened = _open_brackets(tokens[:at])
+    opened = open_brackets(tokens[:at])
     return bool(opened) and opened[-1] > 0 and tokens[opened[-1] - 1][0] == "NAME"
 
 

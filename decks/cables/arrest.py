@@ -16,21 +16,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from formulas import Cable
+from pulleys import RADIUS, payout_variables, pulley
 from ropes import nodes, stored, tensions
 from scipy.integrate import solve_ivp
 from spans import table
 
-from adamslite.cables.statements.forms import (
-    RADIUS,
-    Side,
-    cable_variables,
-    head,
-    number,
-    payout_variables,
-    point,
-    pulley,
-    tail,
-)
+from adamslite.cables.statements.forms import Side, cable_variables, head, number, point, tail
 
 HOOK = 5000
 #: Of the hook on straight cables, relative.

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from formulas import Cable, G
 from laws import Law, Travel, law
+from pulleys import RADIUS, payout_variables
 from ropes import Straight, balance, drum, nodes, tensions
 from scipy.integrate import solve_ivp
 from spans import FORMS, table
@@ -20,12 +21,10 @@ from sway import Ramp, most_sway, no_sway
 
 from adamslite.cables.statements.forms import (
     PULLEY,
-    RADIUS,
     Side,
     cable_variables,
     head,
     number,
-    payout_variables,
     point,
     tail,
 )

@@ -9,20 +9,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from formulas import Cable, G
 from laws import Law, Move, law
+from pulleys import payout_variables
 from ropes import Straight, balance, drum, hanging, nodes, tensions
 from scipy.integrate import solve_ivp
 from scipy.optimize import fsolve
 from spans import FORMS, table
 
-from adamslite.cables.statements.forms import (
-    Side,
-    cable_variables,
-    head,
-    number,
-    payout_variables,
-    point,
-    tail,
-)
+from adamslite.cables.statements.forms import Side, cable_variables, head, number, point, tail
 
 BUCKET, HOUSE, SECTIONS, DAMPING = 5000, 2, 12, 0.2
 #: Of the bucket on straight ropes, relative.

@@ -6,22 +6,17 @@ Half of a symmetric span: the hook (HEAVY) is at x = -a and moves along y, the s
 from collections.abc import Iterator
 
 from formulas import Cable, Impact
+from pulleys import HEAVY, RADIUS, impedance, payout_variables, pulley, through_the_sheave
 
 from adamslite.cables.statements.forms import (
-    HEAVY,
     PULLEY,
-    RADIUS,
     cable_variables,
     grown,
     head,
-    impedance,
     number,
-    payout_variables,
     point,
-    pulley,
     section,
     tail,
-    through_the_sheave,
 )
 
 HALF_SPAN = 15.0

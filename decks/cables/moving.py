@@ -8,9 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from formulas import Cable
+from pulleys import HEAVY, pulley
 from spans import FORMS, Span, table
 
-from adamslite.cables.statements.forms import HEAVY, grown, number, point, pulley, tail
+from adamslite.cables.statements.forms import grown, number, point, tail
 
 
 @dataclass(frozen=True)

@@ -8,20 +8,11 @@ from collections.abc import Iterator
 
 import numpy as np
 from formulas import Cable, G, Winch
+from pulleys import BEARING, RADIUS, pulley
 from scipy.integrate import solve_ivp
 from spans import FORMS, Span, table
 
-from adamslite.cables.statements.forms import (
-    BEARING,
-    PULLEY,
-    RADIUS,
-    grown,
-    grown_tip,
-    number,
-    point,
-    pulley,
-    tail,
-)
+from adamslite.cables.statements.forms import PULLEY, grown, grown_tip, number, point, tail
 
 
 def driven(winch: Winch) -> str:

@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from formulas import Cable, G
 from laws import Law
+from pulleys import RADIUS
 from scipy.optimize import brentq
 
-from adamslite.cables.statements.forms import RADIUS, Side, grown, grown_tip, number, point
+from adamslite.cables.statements.forms import Side, grown, grown_tip, number, point
 
 
 def wheel(side: Side, mount: int, place: tuple[float, float], inertia: float) -> str:

@@ -12,21 +12,13 @@ import numpy as np
 import strings
 from formulas import Cable, G
 from laws import Law, law
+from pulleys import RADIUS, payout_variables
 from ropes import hanging, nodes, stored, tensions, wheel
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq, fsolve
 from spans import table
 
-from adamslite.cables.statements.forms import (
-    RADIUS,
-    Side,
-    cable_variables,
-    head,
-    number,
-    payout_variables,
-    tail,
-    vforce,
-)
+from adamslite.cables.statements.forms import Side, cable_variables, head, number, tail, vforce
 
 CARRIAGE, WHEEL, DAMPING = 2, 9001, 0.2
 #: Of the car that coasts, relative.

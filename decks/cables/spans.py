@@ -5,8 +5,9 @@ from math import ceil, log10
 
 import numpy as np
 from formulas import Cable
+from pulleys import payout_variables
 
-from adamslite.cables.statements.forms import cable_variables, head, payout_variables, section
+from adamslite.cables.statements.forms import cable_variables, head, section
 
 FORMS = ("paper", "ale")
 

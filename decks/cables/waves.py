@@ -4,17 +4,9 @@ from collections.abc import Iterator
 
 import numpy as np
 from formulas import Cable, Impact
+from pulleys import HEAVY, impedance
 
-from adamslite.cables.statements.forms import (
-    HEAVY,
-    cable_variables,
-    head,
-    impedance,
-    number,
-    point,
-    section,
-    tail,
-)
+from adamslite.cables.statements.forms import cable_variables, head, number, point, section, tail
 
 LENGTH = 15.0
 REFERENCE = Cable(6.0e7, 5.536, 13345.0), 10.0

@@ -31,7 +31,6 @@ Instruction = tuple[Any, ...]
 """A word, and what its rule takes after the values."""
 # The kind of analysis, as MODE gives it.
 DYNAMICS = 4.0
-WHOLE: Interval = (-math.inf, math.inf)
 
 
 def enclose(code: Sequence[Instruction], low: np.ndarray, high: np.ndarray) -> np.ndarray:

@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from adamslite.analyses.clock.changes import kept
 from adamslite.analyses.clock.clock import Clock
 from adamslite.analyses.clock.enclosures import enclose
-from adamslite.analyses.clock.kept_answers import kept
 from adamslite.analyses.clock.stops import edges
 from adamslite.equations.broken_motion import Break
 

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from adamslite.analyses.initial.rows import velocity_rows
+from adamslite.assembly.scope import skew
 from adamslite.integrators import contract
 from adamslite.integrators.contract import ACCELERATIONS, JACOBIAN
 from adamslite.model.model import PART
@@ -60,11 +61,6 @@ class Instant:
     by_rate: csr_array
     gradient: np.ndarray
     drift: csr_array
-
-
-def skew(x: np.ndarray) -> np.ndarray:
-    """[x] of [x] y = x cross y."""
-    return np.array([[0.0, -x[2], x[1]], [x[2], 0.0, -x[0]], [-x[1], x[0], 0.0]])
 
 
 def present(system: System) -> Instant:

@@ -23,10 +23,7 @@ from adamslite.cables.vectors import Vector
 
 # Of a component, as a share of the largest.
 ROUND_OFF = 1e-12
-PULLEY, BEARING = 9001, 9002
-RADIUS = 0.5
-# "The impact speed is constant": the hook is a mass that no cable slows down.
-HEAVY = 1e9
+PULLEY = 9001
 AXES = "XYZ"
 
 
@@ -113,51 +110,10 @@ def section(
     return f"SFORCE/{s}, I={i}, J={j}, FUNCTION=-EA*(DM({i},{j})/{free}-1){damper}\n"
 
 
-def impedance(s: int, i: int, cable: Cable, side: int = 1) -> str:
-    """The pull of a long straight run on MARKER/i, along +x (`side` 1) or -x (-1)."""
-    return (
-        "! A long run goes on from here: it pulls with T0 + rho c v, v the speed away from it\n"
-        "! (z of the marker is x).\n"
-        f"MARKER/{s}, PART=1, REULER=90D,90D,0D\n"
-        f"SFORCE/{s}, ACTIONONLY, I={i}, J={s}"
-        f", FUNCTION={number(side * cable.pretension)}-SQRT(EA*rho)*VX({i})\n"
-    )
-
-
-def through_the_sheave(s: int, i: int, j: int, supply: int, sheave: int = 1) -> str:
-    """A section that may lie over the sheave, a point: the origin, or MARKER/`sheave`, x along it.
-
-    SFORCE/s while both ends are on one side; else SFORCE/s+10000 and s+20000 pull both towards the
-    sheave with one tension. MARKER/`supply` takes the pull of the supply.
-    """
-    near, seen = ("", "") if sheave == 1 else (f",{sheave}", f",{sheave},{sheave}")
-    over = f"IF(DX({i}{seen})*DX({j}{seen}):"
-    pull = f"-EA*((DM({i}{near})+DM({j}{near}))/L_0-1)"
-    return (
-        f"SFORCE/{s}, I={i}, J={j}, FUNCTION={over} 0,0,-EA*(DM({i},{j})/L_0-1))\n"
-        f"SFORCE/{s + 10000}, I={i}, J={sheave}, FUNCTION={over} {pull},0,0)\n"
-        f"SFORCE/{s + 20000}, I={j}, J={supply}, FUNCTION={over} {pull},0,0)\n"
-    )
-
-
-def payout_variables(
-    cable: Cable, sections: int, length: float, side: Side = ONLY, radius: float = RADIUS
-) -> str:
-    """Payout S and its rates from the pulley; length LT, H of a section; mass Dm of a node.
-
-    A pulley that turns negatively when it pays out has a negative radius here.
-    """
-    wheel, bearing = side.pulley, side.pulley + 1
-    # Rates are taken along the bearing's axis and, where that turns, as seen from there.
-    seen = f",{bearing}" if side.carried else ""
-    turn, spin = f"AZ({wheel},{bearing})", f"WZ({wheel},{bearing}{seen})"
-    calls = turn, spin, f"WDTZ({wheel},{bearing}{seen * 2})"
-    ways = [f"{radius:.11g}*{call}" for call in calls]
-    return length_variables(side.name, sections, length, ways)
-
-
 def length_variables(a: str, sections: int, length: float, ways: list[str]) -> str:
-    """The same from any payout: expressions of S, S' and S"; `a` is appended to the names."""
+    """Payout S, its rates, length LT, H of a section, mass Dm of a node, from the expressions of S,
+    S' and S"; `a` is appended to the names.
+    """
     return (
         f"\n! Payout and its rates; free length of the cable and of a section; mass a node gains.\n"
         f"VARIABLE/S{a}, FUNCTION={ways[0]}\n"
@@ -166,19 +122,6 @@ def length_variables(a: str, sections: int, length: float, ways: list[str]) -> s
         f"VARIABLE/LT{a}, FUNCTION={number(length)}+S{a}\n"
         f"VARIABLE/H{a}, FUNCTION=LT{a}/{sections}\n"
         f"VARIABLE/Dm{a}, FUNCTION=rho*S{a}/{sections}\n"
-    )
-
-
-def pulley(inertia: float, speed: float = 0.0, at: float = 0.0, side: Side = ONLY) -> str:
-    """A pulley of `inertia` = J/R^2 [kg] above the sheave at x = `at`, turning at speed/R."""
-    i, spin = side.pulley, f", WZ={number(speed / RADIUS)}" if speed else ""
-    axial, x = number(inertia * RADIUS**2), number(at)
-    return (
-        f"\nMARKER/{i + 1}, PART=1, QP={x},{number(RADIUS)},0\n"
-        f"PART/{i}, MASS={number(inertia)}, CM={i}, IP={axial},{axial},{axial}"
-        f", QG={x},{number(RADIUS)},0{spin}\n"
-        f"MARKER/{i}, PART={i}\n"
-        f"JOINT/{i}, REVOLUTE, I={i}, J={i + 1}\n"
     )
 
 

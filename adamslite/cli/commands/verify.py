@@ -9,13 +9,13 @@ decks/README.md says what it holds.
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from adamslite import machine
 from adamslite.cli.commands.codes import DONE, OUTSIDE_TOLERANCE
 from adamslite.run_flags import add_folder_flag, add_limit_flags, count, positive, run_options
 
@@ -28,7 +28,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of `adamslite verify`."""
     parser.add_argument("paths", metavar="DIR|DECK", type=Path, nargs="*", help="folders and decks")
     parser.add_argument(
-        "-j", "--jobs", metavar="N", type=count, default=_processors(),
+        "-j", "--jobs", metavar="N", type=count, default=machine.processors(),
         help="processes that share the decks (default: as many as there are processors)",
     )  # fmt: skip
     parser.add_argument(
@@ -87,10 +87,3 @@ def _summary(verdicts: Sequence[Verdict], share: float) -> str:
         worst, name = max(judged, key=lambda each: each[0])
         text += f"; the largest share of a tolerance is {worst:.2f}, in {name}"
     return f"{text}\n"
-
-
-def _processors() -> int:
-    """How many processors this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1

@@ -253,7 +253,7 @@ def _sweep(args: argparse.Namespace, kind: str, output: Path) -> int:
 
 
 def _open(page: Path) -> None:
-    from adamslite.page.desktop import open_page
+    from adamslite.page.showing import open_page
 
     if not open_page(page):
         sys.stderr.write(f"adamslite: no browser could be opened; open {page} yourself\n")

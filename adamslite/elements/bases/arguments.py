@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from adamslite.language.routines import ARGUMENT
-from adamslite.language.statement import expression, reference, text, vector
+from adamslite.language.statement import expression, number, reference, text, vector
 
 if TYPE_CHECKING:
     from adamslite.language.statement import Field
@@ -47,6 +47,11 @@ def body_x_point() -> Field:
         unit="length",
         help="point in ground in the +xz half-plane of the body",
     )
+
+
+def body_rate(key: str, unit: str, help: str) -> float:
+    """A component of its velocity at the start."""
+    return number(key, start=True, unit=f"{unit}/time", default=0.0, help=f"initial {help}")
 
 
 def reaction_marker() -> Field:
