@@ -138,11 +138,13 @@ def spun_beam(elements: int) -> str:
 
 @pytest.mark.numerical
 def test_the_note_names_the_vibration_of_a_beam() -> None:
-    """Order 2 takes 3008 steps, and the note says what orders to 5 feed."""
+    """Orders to 5 take more than 100 000 steps, trials of order 2 some thousands, by when bursts of
+    vibration come: 3008 and 9125 with other round-off.  The note says what orders to 5 feed.
+    """
     deck = spun_beam(20)
     found = done(deck, 8.0, 40, integrator="GSTIFF", error=1e-4)
     truth = done(deck, 8.0, 40, integrator="RADAU", error=1e-8)
-    assert found.summary["steps"] < 6000
+    assert found.summary["steps"] < 15_000
     assert "feed a vibration of PART/" in found.meta["order"]
     for axis in "xy":
         assert np.abs(found[f"PART/22.{axis}"] - truth[f"PART/22.{axis}"]).max() < 60e-4
