@@ -13,9 +13,9 @@ from tiers import every
 
 from adamslite.errors import UsageError
 from adamslite.plots import style
-from adamslite.plots.frame import balanced
 from adamslite.plots.selection import curve as curve_of
 from adamslite.plots.selection import panels, select, summary
+from adamslite.plots.style import balanced
 from adamslite.plots.time_histories import plot
 from adamslite.results.comparison import Tolerance
 from adamslite.results.outcomes import Outcome

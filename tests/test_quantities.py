@@ -7,8 +7,7 @@ import pytest
 import adamslite
 from adamslite.language import units
 from adamslite.language.function import FUNCTIONS
-from adamslite.results.channels import describe
-from adamslite.results.quantities import DOCUMENTED, documented
+from adamslite.results.channels import DOCUMENTED, describe, documented
 
 DECK = adamslite.read("""\
 requests of all kinds

@@ -1,4 +1,4 @@
-"""What there is to say about the start of a deck: gaps of joints, redundant rows."""
+"""The start of a deck: gaps of joints, redundant rows, and what IC and VELOCITY demand of it."""
 
 from __future__ import annotations
 
@@ -17,13 +17,15 @@ from adamslite.assembly.rank import (
 )
 from adamslite.assembly.rows import gradient, sparse_gradient
 from adamslite.assembly.scope import WIDTH, Posture
-from adamslite.assembly.start_conditions import conditions
 from adamslite.assembly.start_posture import settle_start
 from adamslite.deck.deck import Deck
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.elements.joint import Joint
 from adamslite.elements.marker import Marker
 from adamslite.elements.motion import Motion
+from adamslite.elements.part import Part
+from adamslite.elements.ptcv import Ptcv
+from adamslite.language.expression import Num
 from adamslite.language.interfaces import Key
 from adamslite.model.model import POINT, Model
 from adamslite.model.model import Body as ModelBody
@@ -139,3 +141,57 @@ def _weightless(number: int, body: ModelBody) -> range:
         return range(0)
     first = WIDTH * number
     return range(first, first + (3 if body.inertia.any() else WIDTH))
+
+
+class Condition(Motion):
+    """A motion that holds at the start only; ``name`` says what of the deck it stands for."""
+
+    @property
+    def label(self) -> str:
+        """``ICDISP of MOTION/1``"""
+        return self.name or super().label
+
+    @property
+    def row_names(self) -> tuple[str, ...]:
+        """The requested displacements and speeds."""
+        return ("speed" if self.level == "VELOCITY" else "displacement",)
+
+
+def conditions(statement: Joint | Motion) -> list[Condition]:
+    """A motion for each requested displacement and speed."""
+    where: dict[str, Key | None] = {"joint": statement.key}
+    if isinstance(statement, Motion):
+        where = {"joint": statement.joint, "i": statement.i, "j": statement.j}
+    return [
+        Condition(
+            id=f"{statement.label} {field} {level}",
+            name=f"{field.upper()} of {statement.label}",
+            axis=freedom or None,
+            level=level,
+            function=Num(value),
+            spans=statement.spans,
+            **where,
+        )
+        for field, freedom, *values in statement.initial()
+        for level, value in zip(("DISPLACEMENT", "VELOCITY"), values, strict=True)
+        if value is not None
+    ]
+
+
+def speed_on_curve(deck: Deck, constraint: Ptcv, rate: float) -> tuple[Marker, Condition]:
+    """A motion of the massless point that carries the parameter, at ``rate``, and a marker on the
+    ground for it.
+    """
+    ground = next(part.key for part in deck.of(Part) if part.ground)
+    fixed = Marker(id=f"{constraint.slider}_GROUND".upper(), part=ground, spans=constraint.spans)
+    condition = Condition(
+        id=f"{constraint.label} velocity",
+        name=f"VELOCITY of {constraint.label}",
+        axis="X",
+        level="VELOCITY",
+        function=Num(rate),
+        i=constraint.slider.upper(),
+        j=fixed.key,
+        spans=constraint.spans,
+    )
+    return fixed, condition

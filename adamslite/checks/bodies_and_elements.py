@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from adamslite.checks.posture import (
+from adamslite.checks.markers import (
     is_plain,
     no_body,
 )

@@ -39,18 +39,16 @@ from adamslite.checks.inert import (
 from adamslite.checks.linear_systems import SYSTEM_RULES
 from adamslite.checks.lints import LINT_RULES
 from adamslite.checks.markers import (
+    facing_markers,
     floating_alone,
     floating_unused,
     floating_use,
     frames,
+    inertia_at_mass_centre,
+    orientations,
     owners,
 )
 from adamslite.checks.needless import NEEDLESS_RULES
-from adamslite.checks.posture import (
-    facing_markers,
-    inertia_at_mass_centre,
-    orientations,
-)
 from adamslite.checks.requests import REQUEST_RULES
 from adamslite.checks.rule import Rule, apply
 from adamslite.checks.runs import RUN_RULES, file_names

@@ -14,9 +14,8 @@ from typing import Any
 import numpy as np
 
 from adamslite.deck.deck import Deck
-from adamslite.drawing.against import against
 from adamslite.drawing.arrows import arrows
-from adamslite.drawing.bodies import bodies
+from adamslite.drawing.bodies import against, bodies
 from adamslite.drawing.cable_lines import Cables, cables
 from adamslite.drawing.channels import channels, unit_symbols
 from adamslite.drawing.derived_shapes import derived_shapes

@@ -12,8 +12,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from adamslite.plots import style
-from adamslite.plots.frame import framed
-from adamslite.plots.style import Look
+from adamslite.plots.style import Look, framed
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from adamslite.plots import style
-from adamslite.plots.frame import framed
 from adamslite.plots.selection import clipped, titled
+from adamslite.plots.style import framed
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

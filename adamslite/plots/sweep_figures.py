@@ -16,8 +16,8 @@ import numpy as np
 from adamslite.errors import UsageError
 from adamslite.plots import style
 from adamslite.plots.dark import finished, themed
-from adamslite.plots.frame import framed
 from adamslite.plots.selection import clipped, listed
+from adamslite.plots.style import framed
 from adamslite.plots.sweep_axes import WIDTH
 from adamslite.plots.sweep_histories import histories_figure
 from adamslite.plots.sweep_measures import measures_figure

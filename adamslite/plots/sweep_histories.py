@@ -9,8 +9,8 @@ import numpy as np
 
 from adamslite.errors import UsageError
 from adamslite.plots import style
-from adamslite.plots.frame import framed
 from adamslite.plots.selection import clipped, listed, titled
+from adamslite.plots.style import framed
 from adamslite.plots.sweep_axes import MOST_LINES, USUAL, WIDTH, Scale, height_of, thinned
 from adamslite.plots.sweep_measures import band_words, draw_band, percentiles_of
 from adamslite.plots.sweep_selection import TIME, Runs, Wanted

@@ -9,8 +9,8 @@ import numpy as np
 
 from adamslite.errors import UsageError
 from adamslite.plots import style
-from adamslite.plots.frame import framed
 from adamslite.plots.selection import clipped, listed
+from adamslite.plots.style import framed
 from adamslite.plots.sweep_axes import (
     MANY_POINTS,
     MARKED,

@@ -20,7 +20,6 @@ import numpy as np
 from adamslite.errors import UsageError
 from adamslite.plots import style
 from adamslite.plots.dark import finished, themed
-from adamslite.plots.frame import framed
 from adamslite.plots.references import Beside, beside, reference_of
 from adamslite.plots.selection import (
     Curve,
@@ -33,6 +32,7 @@ from adamslite.plots.selection import (
     titled,
     without_numbers,
 )
+from adamslite.plots.style import framed
 from adamslite.results.events import Event, events_of
 from adamslite.results.results import Results
 from adamslite.verification.reference_file import Reference

@@ -6,7 +6,7 @@ computed again from the deck that the file carries, and compared with what it ho
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from math import isfinite
 from typing import Any
@@ -18,9 +18,9 @@ from adamslite.analyses.simulation import simulate
 from adamslite.deck.commands import Commands
 from adamslite.deck.deck import Deck
 from adamslite.drawing.decimation import FEWEST, POINTS, RUNS_BUDGET, RUNS_CHANNEL_BUDGET
-from adamslite.drawing.drawing import Page, numbers_of
+from adamslite.drawing.drawing import Drawing, Page, numbers_of
 from adamslite.drawing.run_deck import at_start, need_its_bodies
-from adamslite.drawing.scene_of_runs import scene_of_runs
+from adamslite.drawing.scene import Scene, described
 from adamslite.equations.result_columns import column_names
 from adamslite.errors import RunFailed, UsageError
 from adamslite.language.diagnostics import DeckError, Source
@@ -239,3 +239,37 @@ class _Again:
             if not (abs(found - kept[number]) <= AGAIN * scale or found == kept[number]):
                 return bool(np.isnan(found) and np.isnan(kept[number]))
         return True
+
+
+def scene_of_runs(
+    cases: Iterable[tuple[Deck, Results] | None], page: Page, table: dict[str, Any]
+) -> Scene:
+    """The scene of all runs.
+
+    Parameters
+    ----------
+    cases : iterable of (Deck, Results) or None
+        Of each run, None where it has nothing to draw.
+    page : Page
+        How many there are, and which columns are plotted.
+    table : dict
+        What the page tells of the runs: plain data without numbers that are none.
+
+    Raises
+    ------
+    UsageError
+        When no run can be drawn.
+    """
+    first: dict[str, Any] | None = None
+    scenes: list[dict[str, Any] | None] = []
+    for case in cases:
+        if case is None:
+            scenes.append(None)
+            continue
+        deck, results = case
+        plain = described(Drawing(deck, results, page), results)
+        first = first or plain
+        scenes.append({key: each for key, each in plain.items() if each != first[key]})
+    if first is None:
+        raise UsageError("none of the runs has a motion: there is nothing to show")
+    return Scene({**first, "runs": page.block.json({**table, "scenes": scenes})}, page.block.text())

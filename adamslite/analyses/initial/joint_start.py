@@ -12,7 +12,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from adamslite.analyses.initial.conditions import initial_conditions, speed_defects
-from adamslite.assembly.start_conditions import conditions, speed_on_curve
+from adamslite.assembly.start import conditions, speed_on_curve
 from adamslite.elements.joint import Joint
 from adamslite.elements.motion import Motion
 from adamslite.elements.ptcv import Ptcv

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from math import inf, pi, sqrt
 from statistics import mean
+from typing import Any
 
 import numpy as np
 
@@ -13,16 +15,20 @@ from adamslite.cables.model.demand import SMALL_SLOPE, Demand
 from adamslite.cables.model.network import Bar, Network
 from adamslite.cables.model.response import Machine, String, instants, is_usable
 from adamslite.cables.recognition.chain_finder import Chain, damper
-from adamslite.cables.recognition.chain_loads import acting
 from adamslite.cables.recognition.chain_payout import form_of, travel_of
-from adamslite.cables.recognition.posture import Body, Posture
+from adamslite.cables.recognition.posture import GROUND, Body, Posture
 from adamslite.cables.vectors import ZERO, Vector, add, dot, norm, part_across, unit
 from adamslite.deck.deck import Deck
 from adamslite.elements.bases.constraint import Constraint
 from adamslite.elements.diff import Diff
+from adamslite.elements.gcon import Gcon
+from adamslite.elements.joint import Joint
+from adamslite.elements.motion import Motion
 from adamslite.elements.part import Part
 from adamslite.elements.request import COMPONENTS, Request
 from adamslite.elements.vforce import Vforce
+from adamslite.language.expression import Node, Ref, calls, walk
+from adamslite.language.statement import Statement
 
 # Share of a speed, or of a pull, from which a difference counts.
 FELT = 0.01
@@ -270,3 +276,42 @@ def _place(chain: Chain, posture: Posture, k: int) -> Vector:
 def _standing(steps: list[float]) -> float:
     """The largest of some differences if it stands between two neighbours, else 0."""
     return max(steps) if max(steps) > 0.5 * sum(steps) else 0.0
+
+
+def acting(chains: Iterable[Chain], posture: Posture) -> dict[Body, list[Statement]]:
+    """What acts on bodies besides the springs of some chains and what payout does to their nodes;
+    raises :class:`Unknown` where that is more on the nodes themselves."""
+    chains = [*chains]
+    own = {id(link.statement) for chain in chains for link in chain.links}
+    inner = {node for chain in chains for node in chain.inner}
+    found: dict[Body, list[Statement]] = {}
+    for each in posture.deck.statements:
+        if id(each) in own or not (hasattr(each, "loads") or isinstance(each, Constraint | Motion)):
+            continue
+        if isinstance(each, Vforce) and _grows(each):
+            continue
+        for body in {posture.body(key) for key in _markers(each, posture)} - {GROUND}:
+            if body in inner:
+                raise Unknown
+            found.setdefault(body, []).append(each)
+    return found
+
+
+def _grows(force: Vforce) -> bool:
+    """Whether a force is what the payout does to a node."""
+    nodes = force.fx, force.fy, force.fz
+    return any(call.name.startswith("ACC") for node in nodes for call in calls(node))
+
+
+def _markers(each: Statement, posture: Posture) -> Iterator[Any]:
+    """Markers that a force or constraint names."""
+    if isinstance(each, Motion) and each.joint is not None:
+        each = posture.deck.get(Joint, each.joint)
+    if isinstance(each, Gcon):
+        refs: Iterable[Node] = walk(each.function)
+        yield from (n.id for n in refs if isinstance(n, Ref) and n.kind == "MARKER" and n.id != 0)
+        return
+    for name, argument in each.arguments.items():
+        value = getattr(each, name)
+        if argument.kind == "reference" and argument.to == "MARKER" and value is not None:
+            yield value

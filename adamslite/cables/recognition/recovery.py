@@ -29,9 +29,8 @@ from adamslite.cables.layout.geometry import FreeSpan
 from adamslite.cables.model.demand import Demand
 from adamslite.cables.model.estimate import INSTANTS, Laws, Moves, Travel, estimate_moves, from_ways
 from adamslite.cables.model.model_choice import CableModel, choose_model, demand_of, tensions
-from adamslite.cables.recognition.chain_demand import BENT, corrects, is_tied
+from adamslite.cables.recognition.chain_demand import BENT, acting, corrects, is_tied
 from adamslite.cables.recognition.chain_finder import Chain, damper, free_length
-from adamslite.cables.recognition.chain_loads import acting
 from adamslite.cables.recognition.chain_payout import SHORT, drivers, gained_mass
 from adamslite.cables.recognition.chain_routes import WHEEL, Route, wheel_of
 from adamslite.cables.recognition.posture import Body, Posture
