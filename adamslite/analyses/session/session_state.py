@@ -22,8 +22,11 @@ from adamslite.analyses.dynamics.history import History, Piece
 from adamslite.analyses.dynamics.method_choice import MethodChoice
 from adamslite.analyses.dynamics.sensors import SensorLog
 from adamslite.analyses.findings.apart import Apart
-from adamslite.analyses.initial.algebraic_states import settle_states
-from adamslite.analyses.initial.conditions import initial_conditions, settle_variables
+from adamslite.analyses.initial.conditions import (
+    initial_conditions,
+    settle_states,
+    settle_variables,
+)
 from adamslite.analyses.initial.redundancy import leave_out_redundant
 from adamslite.analyses.session.saves import Saves
 from adamslite.analyses.setup.run_options import Budget
