@@ -20,11 +20,11 @@ from adamslite.errors import RunFailed, UsageError
 from adamslite.native.worker import Overspent, interruptible
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
-from adamslite.sensitivity.adjoint_columns import Columns, Seed, weights_of
+from adamslite.sensitivity.adjoint_columns import Columns, Seed
 from adamslite.sensitivity.adjoint_numbers import Chain
 from adamslite.sensitivity.adjoint_stages import StageSweep
 from adamslite.sensitivity.adjoint_sweep import Sweep
-from adamslite.sensitivity.measures import asked
+from adamslite.sensitivity.measures import asked, weights_of
 from adamslite.sensitivity.record import Sensitivities
 from adamslite.sensitivity.study import SENSED, Study, noted, recorded
 from adamslite.sensitivity.taped import Along, Taped, followed

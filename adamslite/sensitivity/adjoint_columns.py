@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
 from adamslite.equations.result_columns import ALIGNED, OF_PART, OF_POINT, column_names, columns
@@ -18,8 +16,6 @@ from adamslite.kernels.code.workspace import (
     VELOCITY,
 )
 from adamslite.model.attitude_angles import angles_313
-from adamslite.sensitivity.measures import END, START, At
-from adamslite.sweeps.measures import Measure
 
 PLACES = {
     **dict(zip(".x .y .z".split(), range(POSITION, POSITION + 3), strict=True)),
@@ -31,64 +27,6 @@ PLACES = {
 ANGLES = (".psi", ".theta", ".phi")
 # Turns of a part by which its angles are differentiated.
 TURN = 1e-5
-
-
-def trapezoids(time: np.ndarray) -> np.ndarray:
-    """Weights of values in their integral over time."""
-    steps, weights = np.diff(time), np.zeros(len(time))
-    weights[:-1] += 0.5 * steps
-    weights[1:] += 0.5 * steps
-    return weights
-
-
-def _one(n: int, k: int, value: float = 1.0) -> np.ndarray:
-    found = np.zeros(n)
-    found[k] = value
-    return found
-
-
-def _mean(t: np.ndarray, v: np.ndarray) -> np.ndarray:
-    span = t[-1] - t[0]
-    return trapezoids(t) / span if span > 0.0 else _one(len(t), len(t) - 1)
-
-
-def _rms(t: np.ndarray, v: np.ndarray) -> np.ndarray:
-    weights = _mean(t, v)
-    size = np.sqrt(weights @ v**2)
-    return weights * v / size if size > 0.0 else 0.0 * v
-
-
-def _absmax(t: np.ndarray, v: np.ndarray) -> np.ndarray:
-    k = int(np.argmax(np.abs(v)))
-    return _one(len(v), k, float(np.sign(v[k])))
-
-
-WEIGHTS: dict[str, Callable[[np.ndarray, np.ndarray], np.ndarray]] = {
-    "max": lambda t, v: _one(len(v), int(np.argmax(v))),
-    "min": lambda t, v: _one(len(v), int(np.argmin(v))),
-    "absmax": _absmax,
-    "range": lambda t, v: _one(len(v), int(np.argmax(v))) - _one(len(v), int(np.argmin(v))),
-    "mean": _mean,
-    "rms": _rms,
-    "first": lambda t, v: _one(len(v), 0),
-    "final": lambda t, v: _one(len(v), len(v) - 1),
-}
-"""By the word of a measure: its derivatives by the values (nt,)."""
-
-
-def weights_of(measure: Measure | At, time: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """The derivatives of a measure by the values of its column (nt,)."""
-    if isinstance(measure, Measure):
-        return WEIGHTS[measure.kind](time, values)
-    found = np.zeros(len(time))
-    if measure.when in (START, END):
-        found[0 if measure.when == START else -1] = 1.0
-        return found
-    when = float(measure.when)
-    k = min(max(int(np.searchsorted(time, when)), 1), len(time) - 1)
-    share = (when - time[k - 1]) / (time[k] - time[k - 1])
-    found[k - 1], found[k] = 1.0 - share, share
-    return found
 
 
 class Seed:

@@ -36,9 +36,8 @@ from adamslite.integrators.radau.coefficients import INVERSE, NODE
 from adamslite.integrators.radau.history import Y_ROWS, Z_ROWS
 from adamslite.sensitivity import taped
 from adamslite.sensitivity.adjoint_columns import Seed
-from adamslite.sensitivity.adjoint_formula import Row
 from adamslite.sensitivity.adjoint_sweep import Sweep
-from adamslite.sensitivity.adjoint_tape import SINGULAR
+from adamslite.sensitivity.adjoint_tape import SINGULAR, Row
 from adamslite.sensitivity.adjoint_weights import Slopes
 from adamslite.sensitivity.stages import SHARE
 from adamslite.sensitivity.transposed import BLOCKS, FACTOR_STAGES, LAY, PUT_STAGE, SOLVE_STAGES

@@ -43,8 +43,7 @@ from adamslite.integrators.contract import (
 from adamslite.integrators.projection import RATES
 from adamslite.kernels.code.workspace import TIME
 from adamslite.sensitivity.adjoint_columns import Seed
-from adamslite.sensitivity.adjoint_formula import Row, gammas, vector_rates, way_of
-from adamslite.sensitivity.adjoint_tape import SINGULAR, Taken
+from adamslite.sensitivity.adjoint_tape import SINGULAR, Row, Taken, gammas, vector_rates, way_of
 from adamslite.sensitivity.adjoint_weights import Numbers, Slopes
 from adamslite.sensitivity.begin import AHEAD
 from adamslite.sensitivity.transposed import (

@@ -1,9 +1,13 @@
-"""The tape of a run for those who go it back: its rows, and states in the workspace."""
+"""The tape of a run for those who go it back: its rows, coefficients of a step, rows that tie
+velocities, and states in the workspace.
+"""
 
 from __future__ import annotations
 
 import ctypes
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from functools import cache, lru_cache
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -18,10 +22,10 @@ from adamslite.integrators.audit_record import (
     TAPE_STEP,
     TAPE_TIME,
 )
+from adamslite.integrators.bdf.history import ROWS
 from adamslite.integrators.contract import DONE, INDEX3, STABILISED
 from adamslite.integrators.stepping.output import WITHIN
 from adamslite.kernels.code.workspace import OMEGA
-from adamslite.sensitivity.adjoint_formula import Row, ties_of
 from adamslite.sensitivity.adjoint_weights import Weights
 from adamslite.sensitivity.transposed import ENTRY, TRACK
 
@@ -32,6 +36,93 @@ KIND = ctypes.CFUNCTYPE(
     ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_double
 )
 SINGULAR = "derivatives are not determined where the equations are singular"
+
+
+@dataclass
+class Row:
+    """A row of the tape: what happens there.
+
+    ``h_before``: the step for which differences are there, ``fresh``: the history begins anew;
+    ``outputs``: output times within the step; ``memory``: what kernels remember before it.
+    """
+
+    is_step: bool
+    t: float
+    h: float
+    order: int
+    h_before: float
+    fresh: bool
+    outputs: range
+    memory: tuple[np.ndarray, ...]
+
+
+class Way(NamedTuple):
+    """The way of weights of differences through a step: ybar = ``own`` . Dbar of what the corrector
+    finds, and ``past`` Dbar + ``rate`` psibar + ``level`` y_pbar before it.
+    """
+
+    own: np.ndarray
+    past: np.ndarray
+    rate: np.ndarray
+    level: np.ndarray
+
+
+@cache
+def gammas(k: int) -> np.ndarray:
+    """gamma_0 .. gamma_k."""
+    return np.concatenate([[0.0], np.cumsum(1.0 / np.arange(1, k + 1))])
+
+
+@lru_cache(maxsize=4096)
+def way_of(k: int, ratio: float) -> Way:
+    g, back = gammas(k), np.eye(ROWS)
+    for j in range(k + 1):
+        back[j + 1] += back[j]
+    own = back[k + 1] + back[k + 2]
+    back[k + 1], back[k + 2] = -back[k + 2], 0.0
+    change = resized(k, ratio).T
+    back[: k + 1] = change @ back[: k + 1]
+    return Way(own, back, change @ (g / g[k]), change.sum(axis=1))
+
+
+def resized(k: int, ratio: float) -> np.ndarray:
+    """R (k + 1, k + 1): differences on steps of ``ratio`` times the size are R D."""
+    size = k + 1
+
+    def factors(f: float) -> np.ndarray:
+        r = np.zeros((size, size))
+        r[0] = 1.0
+        for i in range(1, size):
+            r[i, 1:] = r[i - 1, 1:] * (i - 1 - f * np.arange(1, size)) / i
+        return r
+
+    return (factors(ratio) @ factors(1.0)).T
+
+
+def vector_rates(c: np.ndarray, w: np.ndarray) -> np.ndarray:
+    """c' = (I - [c]/2 + c c^T/4) w."""
+    return w - 0.5 * np.cross(c, w) + 0.25 * c * np.einsum("bi,bi->b", c, w)[:, None]
+
+
+class Ties:
+    """G of the velocity rows, from the blocks of the matrix of a step."""
+
+    def __init__(self, system: System) -> None:
+        entries, self.nz = [], system.nz
+        node_at, nodes = system.node_at, system.nodes
+        for (row, column), at in system.blocks.offsets.items():
+            if column < len(system.model.bodies) and ("MU", nodes[row]) in node_at:
+                mu, wide = node_at["MU", nodes[row]], system.widths[column]
+                entries += [
+                    (system.starts[mu] + i, system.starts[column] + j, at + i * wide + j)
+                    for i in range(system.widths[row])
+                    for j in range(wide)
+                ]
+        self.rows, self.columns, self.places = np.array(entries, dtype=int).reshape(-1, 3).T
+
+    def mu(self, J: np.ndarray, u: np.ndarray) -> np.ndarray:
+        """G u at the places of mu (nz,)."""
+        return np.bincount(self.rows, J[self.places] * u[self.columns], self.nz)
 
 
 class Taken:
@@ -51,7 +142,7 @@ class Taken:
         self.n, self.first, self.w = system.n, system.m + system.nv, 2 * system.n + system.ns
         self.held = bool(system.sizes.si2 and system.holonomic)
         self.phases = STABILISED if self.held else INDEX3
-        self.ties = ties_of(system) if self.held else None
+        self.ties = Ties(system) if self.held else None
         problem, plan = system.records()
         self.native, self.at = KIND(address_of(ENTRY)), (problem.address, plan.address)
         tape = system.tape

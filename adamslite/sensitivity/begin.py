@@ -14,8 +14,7 @@ from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import vector_rates
 from adamslite.native.translate import Reals, native, seldom
 from adamslite.sensitivity.contract import Forward, Tangents
-from adamslite.sensitivity.rates import rates_of, sensitive_accelerations, take_state
-from adamslite.sensitivity.tangents import clear
+from adamslite.sensitivity.tangents import clear, rates_of, sensitive_accelerations, take_state
 
 # Rows of derivatives: first, second, third, and rates ahead.
 RATE, SECOND, THIRD, NEAR, FAR, ROWS = range(6)

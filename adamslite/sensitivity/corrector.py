@@ -35,8 +35,7 @@ from adamslite.kernels.code.workspace import OMEGA
 from adamslite.native.translate import Reals, copy, native
 from adamslite.sensitivity.contract import Forward, Tangents
 from adamslite.sensitivity.inverse import invert_small, is_small, times_small_inverse
-from adamslite.sensitivity.rates import spun
-from adamslite.sensitivity.tangents import clear, put_direction, tangent
+from adamslite.sensitivity.tangents import clear, put_direction, spun, tangent
 
 # A matrix serves for a step whose cu is within this ratio, for so many steps, and as long as so
 # many iterations are enough.

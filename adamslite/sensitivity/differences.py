@@ -44,8 +44,8 @@ from adamslite.sensitivity.corrector import (
     outdated,
     renewed,
 )
-from adamslite.sensitivity.outputs import write_outputs
 from adamslite.sensitivity.start import at_start, jump, reset_states
+from adamslite.sensitivity.tangents import write_outputs
 
 
 @native

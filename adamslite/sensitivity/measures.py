@@ -39,7 +39,6 @@ MOST_ALONE = 4
 APART = (
     "a difference of two runs is {share:.2g} of it away: do not rely on it, or use a smaller ERROR"
 )
-Rule = Callable[[np.ndarray, np.ndarray, np.ndarray], float]
 
 
 class At(NamedTuple):
@@ -61,38 +60,65 @@ class At(NamedTuple):
         return float(np.interp(when, time, values))
 
 
-def _mean(time: np.ndarray, values: np.ndarray, slopes: np.ndarray) -> float:
-    return Measure("mean", "").of(time, slopes)
+def _one(n: int, k: int, value: float = 1.0) -> np.ndarray:
+    found = np.zeros(n)
+    found[k] = value
+    return found
 
 
-def _rms(time: np.ndarray, values: np.ndarray, slopes: np.ndarray) -> float:
-    root = Measure("rms", "").of(time, values)
-    return _mean(time, values, values * slopes) / root if root > 0.0 else np.nan
+def _mean(t: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """Of trapezoids."""
+    steps, span = np.diff(t), t[-1] - t[0]
+    if not span > 0.0:
+        return _one(len(t), len(t) - 1)
+    return 0.5 * (np.append(steps, 0.0) + np.append(0.0, steps)) / span
 
 
-def _absmax(time: np.ndarray, values: np.ndarray, slopes: np.ndarray) -> float:
-    at = np.abs(values).argmax()
-    return float(np.sign(values[at]) * slopes[at])
+def _rms(t: np.ndarray, v: np.ndarray) -> np.ndarray:
+    weights = _mean(t, v)
+    size = np.sqrt(weights @ v**2)
+    return weights * v / size if size > 0.0 else 0.0 * v
 
 
-#: By the word of a measure: its derivative from times, values and their derivatives, all (nt,).
-SLOPES: dict[str, Rule] = {
-    "max": lambda time, values, slopes: slopes[values.argmax()],
-    "min": lambda time, values, slopes: slopes[values.argmin()],
+def _absmax(t: np.ndarray, v: np.ndarray) -> np.ndarray:
+    k = int(np.argmax(np.abs(v)))
+    return _one(len(v), k, float(np.sign(v[k])))
+
+
+WEIGHTS: dict[str, Callable[[np.ndarray, np.ndarray], np.ndarray]] = {
+    "max": lambda t, v: _one(len(v), int(np.argmax(v))),
+    "min": lambda t, v: _one(len(v), int(np.argmin(v))),
     "absmax": _absmax,
-    "range": lambda time, values, slopes: slopes[values.argmax()] - slopes[values.argmin()],
+    "range": lambda t, v: _one(len(v), int(np.argmax(v))) - _one(len(v), int(np.argmin(v))),
     "mean": _mean,
     "rms": _rms,
-    "first": lambda time, values, slopes: slopes[0],
-    "final": lambda time, values, slopes: slopes[-1],
+    "first": lambda t, v: _one(len(v), 0),
+    "final": lambda t, v: _one(len(v), len(v) - 1),
 }
+"""By the word of a measure: its derivatives by the values (nt,)."""
+
+
+def weights_of(measure: Measure | At, time: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """The derivatives of a measure by the values of its column (nt,)."""
+    if isinstance(measure, Measure):
+        return WEIGHTS[measure.kind](time, values)
+    found = np.zeros(len(time))
+    if measure.when in (START, END):
+        found[0 if measure.when == START else -1] = 1.0
+        return found
+    when = float(measure.when)
+    k = min(max(int(np.searchsorted(time, when)), 1), len(time) - 1)
+    share = (when - time[k - 1]) / (time[k] - time[k - 1])
+    found[k - 1], found[k] = 1.0 - share, share
+    return found
 
 
 def slope(measure: Measure | At, time: np.ndarray, values: np.ndarray, slopes: np.ndarray) -> float:
-    """The derivative of a measure, from those of the column (nt,)."""
-    if isinstance(measure, At):
-        return measure.of(time, slopes)
-    return float(SLOPES[measure.kind](time, values, slopes))
+    """The derivative of a measure, from those of the column (nt,); rms has none where it is 0."""
+    weights = weights_of(measure, time, values)
+    some = np.flatnonzero(weights)
+    root = not isinstance(measure, Measure) or measure.kind != "rms" or some.size
+    return float(weights[some] @ slopes[some]) if root else np.nan
 
 
 def asked(texts: Iterable[str], names: Sequence[str]) -> tuple[list[Measure | At], list[int]]:
@@ -113,10 +139,10 @@ def asked(texts: Iterable[str], names: Sequence[str]) -> tuple[list[Measure | At
             found += [At(names[k], _when(text, when)) for k in meant]
         elif text.partition(" ")[0].lower() in MEASURES or " " in text:
             (measure,) = parsed([text])
-            if measure.kind not in SLOPES:
+            if measure.kind not in WEIGHTS:
                 raise UsageError(
                     f"{text}: the time of an extreme jumps from output to output and has no "
-                    f"derivative; there are {', '.join(SLOPES)}"
+                    f"derivative; there are {', '.join(WEIGHTS)}"
                 )
             meant = selected(names, [measure.channel])
             found += [Measure(measure.kind, names[k]) for k in meant]

@@ -19,12 +19,12 @@ from adamslite.integrators.implicit.formulation import equations_kept, is_stabil
 from adamslite.integrators.linalg.blocks import solve
 from adamslite.integrators.linalg.plan import TINY, Plan
 from adamslite.integrators.motion_equations import project_on_constraints
-from adamslite.integrators.radau.coefficients import NODE, REAL, WEIGHT
+from adamslite.integrators.radau.coefficients import REAL, WEIGHT
+from adamslite.integrators.radau.dense_output import quadratic
 from adamslite.native.translate import Reals, copy, native
 from adamslite.sensitivity.contract import Forward, Tangents
 from adamslite.sensitivity.corrector import farthest
-from adamslite.sensitivity.rates import spun
-from adamslite.sensitivity.tangents import put_direction, tangent
+from adamslite.sensitivity.tangents import put_direction, spun, tangent
 
 # The order of the error over that of the estimate, as measured.
 POWER = 1.25
@@ -41,7 +41,7 @@ def note_stage_errors(
     copy(P.W, start, P.W.size)
     for number in range(D.count):
         H = S.history[number * S.room :]
-        start_values(P, S, H[z_at:], z_width)
+        quadratic(P, 0.0, H[z_at:], z_width, P.sizes.m + P.sizes.nv, S.z)
         newton_error(P, L, D, S, number, H, h)
         for i in range(w):  # stages no longer count from the start
             for row in range(0 if n <= i and i < 2 * n else 3):
@@ -51,16 +51,6 @@ def note_stage_errors(
             S.top[at] = max(S.top[at], farthest(H[3 * w + part * n :], n))
             top = max(S.top[at], max(S.floor[number], TINY))
             S.spent[at] += top * (error / top) ** POWER
-
-
-@native
-def start_values(P: Problem, S: Forward, Z: Reals, z_width: int) -> None:
-    """Multipliers and variables at the start of the step, of the polynomial through the stages."""
-    a, b = P.tableau[NODE], P.tableau[NODE + 1]
-    f1, f2 = b / ((a - b) * (a - 1.0)), a / ((b - a) * (b - 1.0))
-    f3 = a * b / ((1.0 - a) * (1.0 - b))
-    for k in range(P.sizes.m + P.sizes.nv):
-        S.z[k] = f1 * Z[k] + f2 * Z[z_width + k] + f3 * Z[2 * z_width + k]
 
 
 @native

@@ -40,11 +40,9 @@ from adamslite.integrators.stepping.output import WITHIN
 from adamslite.native.translate import Reals, copy, native
 from adamslite.sensitivity.contract import Forward, Tangents
 from adamslite.sensitivity.corrector import WORST_RATE, farthest, farthest_apart
-from adamslite.sensitivity.outputs import write_outputs
-from adamslite.sensitivity.rates import spun
 from adamslite.sensitivity.stage_error import note_stage_errors
 from adamslite.sensitivity.start import at_start, jump, reset_states
-from adamslite.sensitivity.tangents import clear, put_direction, tangent
+from adamslite.sensitivity.tangents import clear, put_direction, spun, tangent, write_outputs
 
 # Rows of a history: the start of the step, three stages, their rates, and behind them z.
 RATE_ROWS, ROWS = 3, 7
@@ -215,13 +213,12 @@ def guess(P: Problem, S: Forward, H: Reals, h: float, again: bool) -> None:
     is lost where the step is done ``again``.  Places, turns and states count from the start.
     """
     n, w = P.sizes.n, S.width
-    w = S.width
     if again:
         clear(H[ROWS * w :], 3 * z_width(P))
     if S.h > 0.0 and h < LONGER * S.h and not again:
         old = H[ROWS * w + 3 * z_width(P) :]
         for stage in range(3):
-            between(P, old, H, w, 1.0 + P.tableau[NODE + stage] * h / S.h, S.y[stage * w :])
+            collocated(P, old, H, w, 1.0 + P.tableau[NODE + stage] * h / S.h, S.y[stage * w :])
         copy(H[w:], S.y, 3 * w)
         continue_z(P, S, H, h)
     else:
@@ -256,18 +253,6 @@ def continue_z(P: Problem, S: Forward, H: Reals, h: float) -> None:
         Z[k] = third + (x - 1.0) * (slope + (x - b) * bend)
         Z[e + k] = third + (y - 1.0) * (slope + (y - b) * bend)
         Z[2 * e + k] = third + (z - 1.0) * (slope + (z - b) * bend)
-
-
-@native
-def between(P: Problem, start: Reals, H: Reals, w: int, x: float, y: Reals) -> None:
-    """The polynomial through a start and the stages in ``H`` at the share ``x`` of the step."""
-    a, b = P.tableau[NODE], P.tableau[NODE + 1]
-    f0 = (x - a) * (x - b) * (x - 1.0) / (-a * b)
-    f1 = x * (x - b) * (x - 1.0) / (a * (a - b) * (a - 1.0))
-    f2 = x * (x - a) * (x - 1.0) / (b * (b - a) * (b - 1.0))
-    f3 = x * (x - a) * (x - b) / ((1.0 - a) * (1.0 - b))
-    for i in range(w):
-        y[i] = f0 * start[i] + f1 * H[w + i] + f2 * H[2 * w + i] + f3 * H[3 * w + i]
 
 
 @native
@@ -357,7 +342,7 @@ def record(P: Problem, L: Plan, D: Tangents, S: Forward, here: Reals) -> bool:
         for number in range(D.count):
             H = S.history[number * S.room :]
             share = min(1.0, 1.0 + (P.times[S.row] - t) / h)
-            collocated(P, H, S.width, share, S.y)
+            collocated(P, H, H, S.width, share, S.y)
             write_outputs(P, L, D, S, number, S.y)
         S.row += 1
     return True

@@ -26,11 +26,21 @@ from adamslite.integrators.contract import POSITION_ROWS, STATE_ORIGIN, Problem
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import WATCH, guard_values
 from adamslite.integrators.projection import RATES
-from adamslite.native.translate import Reals, call_address, copy, native, rare, seldom
+from adamslite.native.translate import Reals, copy, native, rare, seldom
 from adamslite.sensitivity.contract import Forward, Tangents
-from adamslite.sensitivity.outputs import write_outputs
-from adamslite.sensitivity.rates import forget_rates, sensitive_accelerations, take_state
-from adamslite.sensitivity.tangents import clear, put_direction, tangent
+from adamslite.sensitivity.tangents import (
+    CLOCK_GUARDS,
+    STATE_GUARDS,
+    by_number,
+    clear,
+    directed,
+    forget_rates,
+    put_direction,
+    sensitive_accelerations,
+    take_state,
+    tangent,
+    write_outputs,
+)
 
 # A guard that changes by less than this of what it changes by with a number has no time.
 GRAZING = 1e-9
@@ -277,24 +287,7 @@ def reset_states(P: Problem, D: Tangents, S: Forward, before: Reals, behind: Rea
 @native
 def guards(P: Problem, D: Tangents, S: Forward, number: int) -> None:
     """Derivatives of all guards in the direction in ``dW`` and by a number (-1: none)."""
-    g = P.group
     clear(S.guard, P.W.size)
-    for k in range(P.sizes.ng):
-        for which in range(2):
-            address = D.group[k].clock if which == 0 else D.group[k].watch
-            if address != 0:
-                call_address(
-                    address, g[k].count, g[k].ints, g[k].reals, P.W, D.nothing, D.dW, S.guard
-                )
-    if number < 0:
-        return
-    for p in range(D.piece_at[number], D.piece_at[number + 1]):
-        k, first = D.piece[p].group, D.piece[p].first
-        for which in range(2):
-            address = D.group[k].clock if which == 0 else D.group[k].watch
-            if address != 0:
-                call_address(
-                    address, D.piece[p].count, g[k].ints + 8 * first * D.group[k].of_ints,
-                    g[k].reals + 8 * first * D.group[k].of_reals, P.W, D.piece[p].reals, D.none,
-                    S.guard,
-                )  # fmt: skip
+    for phases in range(STATE_GUARDS, CLOCK_GUARDS + 1):
+        directed(P, D, phases, S.guard)
+        by_number(P, D, number, phases, S.guard)

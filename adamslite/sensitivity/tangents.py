@@ -6,16 +6,24 @@ Kernels give those of loads, constraints and equations
 (:mod:`adamslite.kernels.code.tangent_writer`); inertia forces are M (a - g) and J al + w x J w with
 
     dJ = [theta] J - J [theta] + R dI R^T
+
+Accelerations follow from F_(a, z, s') (da, dz, ds') = -(F_y dy + F_p) with the matrix that solves
+for the accelerations themselves; theta' = dw + w x theta.
 """
 
 from __future__ import annotations
 
-from adamslite.integrators.contract import SIGNALS, STATE_ORIGIN, Problem
+from adamslite.integrators.accelerations import solve_accelerations
+from adamslite.integrators.contract import ACCELERATION, OUTPUTS, SIGNALS, STATE_ORIGIN, Problem
 from adamslite.integrators.linalg.norms import largest_of
+from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import PART, only_points, put_vectors, rotated_inertia
 from adamslite.kernels.code.workspace import HEAD
-from adamslite.native.translate import Reals, call_address, native
-from adamslite.sensitivity.contract import Tangents
+from adamslite.native.translate import Reals, call_address, copy, native
+from adamslite.sensitivity.contract import Forward, Tangents
+
+# In place of phases: guards of the clock, guards of the state.
+CLOCK_GUARDS, STATE_GUARDS = -1, -2
 
 
 @native
@@ -108,27 +116,37 @@ def note_plane(P: Problem, D: Tangents, number: int, F: Reals) -> None:
 
 
 @native
+def tangent_of(P: Problem, D: Tangents, k: int, phases: int) -> int:
+    """The address of the tangent of a group of kernels, 0 where it has none of the phases."""
+    if phases == CLOCK_GUARDS:
+        return D.group[k].clock
+    if phases == STATE_GUARDS:
+        return D.group[k].watch
+    return D.group[k].residual if P.group[k].phases & phases else 0
+
+
+@native
 def directed(P: Problem, D: Tangents, phases: int, F: Reals) -> None:
     """Add what kernels of the phases change by in the direction in ``dW``."""
     g = P.group
     for k in range(P.sizes.ng):
-        if g[k].phases & phases:
-            call_address(
-                D.group[k].residual, g[k].count, g[k].ints, g[k].reals, P.W, D.nothing, D.dW, F
-            )
+        address = tangent_of(P, D, k, phases)
+        if address != 0:
+            call_address(address, g[k].count, g[k].ints, g[k].reals, P.W, D.nothing, D.dW, F)
 
 
 @native
 def by_number(P: Problem, D: Tangents, number: int, phases: int, F: Reals) -> None:
-    """Add what kernels of the phases change by with a number, the state being what it is."""
-    if number < 0:
-        return
+    """Add what kernels of the phases change by with a number (-1: none), the state being what it
+    is.
+    """
     g = P.group
-    for p in range(D.piece_at[number], D.piece_at[number + 1]):
+    for p in range(D.piece_at[max(number, 0)], D.piece_at[number + 1]):
         k, first = D.piece[p].group, D.piece[p].first
-        if g[k].phases & phases:
+        address = tangent_of(P, D, k, phases)
+        if address != 0:
             call_address(
-                D.group[k].residual, D.piece[p].count, g[k].ints + 8 * first * D.group[k].of_ints,
+                address, D.piece[p].count, g[k].ints + 8 * first * D.group[k].of_ints,
                 g[k].reals + 8 * first * D.group[k].of_reals, P.W, D.piece[p].reals, D.none, F,
             )  # fmt: skip
 
@@ -201,3 +219,99 @@ def inertia_by_number(P: Problem, D: Tangents, number: int, b: int) -> None:
                 for m in range(3):
                     total += W[o + 15 + 3 * r + k] * tensor[3 * k + m] * W[o + 15 + 3 * c + m]
             P.work[18 + 3 * r + c] += total
+
+
+@native
+def take_state(P: Problem) -> None:
+    """The workspace's state into q, u, a, z and s'; attitudes count from there."""
+    W, first = P.W, P.sizes.m + P.sizes.nv
+    for b in range(P.sizes.nb):
+        i, o = P.body[b].first, P.body[b].at
+        for k in range(3):
+            P.q[i + k], P.u[i + k], P.a[i + k] = W[o + k], W[o + 3 + k], W[o + 6 + k]
+        if P.body[b].width == PART:
+            for k in range(3):
+                P.q[i + 3 + k] = 0.0
+                P.u[i + 3 + k], P.a[i + 3 + k] = W[o + 9 + k], W[o + 12 + k]
+            for k in range(9):
+                P.base[9 * b + k] = W[o + 15 + k]
+    for k in range(first + P.sizes.ns):
+        P.z[k] = W[P.scalar[k]]
+    for k in range(P.sizes.ns):
+        P.rd[k] = W[P.scalar[first + k] + 1]
+
+
+@native
+def spun(P: Problem, y: Reals, u: Reals, sign: float, target: Reals) -> None:
+    """target = u + sign w x theta of parts, u of places: rates of places and turns from velocities
+    and (``sign`` -1) back.
+    """
+    for b in range(P.sizes.nb):
+        i, o = P.body[b].first, P.body[b].at
+        for k in range(3):
+            target[i + k] = u[i + k]
+        if P.body[b].width == PART:
+            for k in range(3):
+                p, q = (k + 1) % 3, (k + 2) % 3
+                cross = P.W[o + 9 + p] * y[i + 3 + q] - P.W[o + 9 + q] * y[i + 3 + p]
+                target[i + 3 + k] = u[i + 3 + k] + sign * cross
+
+
+@native
+def forget_rates(P: Problem, S: Forward) -> None:
+    """No accelerations, multipliers, variables or rates of states."""
+    clear(S.a, P.sizes.n)
+    clear(S.z, P.sizes.m + P.sizes.nv)
+    clear(S.sd, P.sizes.ns)
+
+
+@native
+def sensitive_accelerations(
+    P: Problem, L: Plan, D: Tangents, S: Forward, number: int, y: Reals, time: float
+) -> None:
+    """Derivatives of accelerations, multipliers, variables and s' into ``S``, and the whole of the
+    direction into ``dW``, by a number, or (-1) in the direction ``y`` and ``time`` alone; the
+    matrix of accelerations is factored.
+    """
+    n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
+    forget_rates(P, S)
+    put_direction(P, D, y, S.a, S.z, S.sd, time)
+    tangent(P, D, number, ACCELERATION, P.F)
+    for k in range(n + first + ns, P.sizes.nz):
+        P.F[k] = 0.0
+    solve_accelerations(P, L)
+    for i in range(n):
+        S.a[i] = 0.0 - P.F[i]
+    for k in range(first):
+        S.z[k] = 0.0 - P.F[n + k]
+    for k in range(ns):
+        S.sd[k] = 0.0 - P.F[n + first + k]
+    put_direction(P, D, y, S.a, S.z, S.sd, time)
+    put_signals(P, D, number)
+
+
+@native
+def rates_of(P: Problem, S: Forward, y: Reals, rates: Reals) -> None:
+    """Rates of sensitivities from the derivatives of accelerations in ``S``."""
+    n = P.sizes.n
+    spun(P, y, y[n:], 1.0, rates)
+    for i in range(n):
+        rates[n + i] = S.a[i]
+    for k in range(P.sizes.ns):
+        rates[2 * n + k] = S.sd[k]
+
+
+@native
+def write_outputs(P: Problem, L: Plan, D: Tangents, S: Forward, number: int, y: Reals) -> None:
+    """The derivative of the next row of the record by a number, from the sensitivities ``y`` of
+    the workspace's state; the matrix of accelerations is factored.
+    """
+    nw, n_out = P.sizes.nw, P.sizes.n_out
+    sensitive_accelerations(P, L, D, S, number, y, 0.0)
+    out = S.record[(number * P.times.size + S.row) * (nw + n_out) :]
+    copy(out, D.dW, nw)
+    written = out[nw:]
+    for k in range(n_out):
+        written[k] = 0.0
+    directed(P, D, OUTPUTS, written)
+    by_number(P, D, number, OUTPUTS, written)

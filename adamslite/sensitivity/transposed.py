@@ -21,8 +21,8 @@ from adamslite.integrators.radau.stages import (
 )
 from adamslite.native.translate import Reals, copy, native
 from adamslite.sensitivity.corrector import matrix
-from adamslite.sensitivity.rates import take_state
 from adamslite.sensitivity.stages import restore_history
+from adamslite.sensitivity.tangents import take_state
 
 ENTRY = "adamslite.sensitivity.transposed.transposed"
 # What is to be done.

@@ -21,7 +21,8 @@ def record(P: Problem, L: Plan, C: Control) -> bool:
     n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     y, w, h = P.trial[0:], 2 * n + ns, C.h_last
     while is_next(P, C):
-        collocated(P, P.history, w, min(1.0, 1.0 + (P.times[C.row] - C.t) / h), y)
+        share = min(1.0, 1.0 + (P.times[C.row] - C.t) / h)
+        collocated(P, P.history, P.history, w, share, y)
         for i in range(n):
             y[i] += P.history[ORIGIN * w + i]
         for k in range(ns):
@@ -36,7 +37,7 @@ def put_between(P: Problem, t: float, h: float, x: float) -> None:
     """The tried step from ``t`` at the share ``x`` into the workspace."""
     n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     w, Y, y, a, z = 2 * n + ns, P.history, P.trial[0:], P.x, P.F
-    collocated(P, Y, w, x, y)
+    collocated(P, Y, Y, w, x, y)
     quadratic(P, x, Y[(RATES + 1) * w + n :], w, n, a)
     quadratic(P, x, Y[stage_z(P, 0) :], stage_z(P, 1) - stage_z(P, 0), first, z)
     for i in range(n):
@@ -47,15 +48,15 @@ def put_between(P: Problem, t: float, h: float, x: float) -> None:
 
 
 @native
-def collocated(P: Problem, rows: Reals, w: int, x: float, y: Reals) -> None:
-    """y at the share ``x`` of a step: the cubic through its start and its stages."""
+def collocated(P: Problem, start: Reals, rows: Reals, w: int, x: float, y: Reals) -> None:
+    """y at the share ``x`` of a step: the cubic through its start and the stages in ``rows``."""
     a, b = P.tableau[NODE], P.tableau[NODE + 1]
     f0 = (x - a) * (x - b) * (x - 1.0) / (-a * b)
     f1 = x * (x - b) * (x - 1.0) / (a * (a - b) * (a - 1.0))
     f2 = x * (x - a) * (x - 1.0) / (b * (b - a) * (b - 1.0))
     f3 = x * (x - a) * (x - b) / ((1.0 - a) * (1.0 - b))
     for i in range(w):
-        y[i] = f0 * rows[i] + f1 * rows[w + i] + f2 * rows[2 * w + i] + f3 * rows[3 * w + i]
+        y[i] = f0 * start[i] + f1 * rows[w + i] + f2 * rows[2 * w + i] + f3 * rows[3 * w + i]
 
 
 @native

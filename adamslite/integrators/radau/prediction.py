@@ -22,7 +22,7 @@ def predict(P: Problem, C: Control) -> None:
     for stage in range(3):
         y, z, c = Y[(1 + stage) * w :], Y[stage_z(P, stage) :], X[NODE + stage] * h
         if before > 0.0:
-            collocated(P, Y[BEFORE * w :], w, 1.0 + c / before, y)
+            collocated(P, Y[BEFORE * w :], Y[BEFORE * w :], w, 1.0 + c / before, y)
             quadratic(P, 1.0 + c / before, Y[stage_z(P, 3) :], e, first, z)
         else:
             for i in range(n):
