@@ -31,7 +31,6 @@ from adamslite.integrators.events.stops import sample_clock, set_clock, set_pace
 from adamslite.integrators.implicit.failures import wildest
 from adamslite.integrators.implicit.step_size import first_step, jerk, retry_factor
 from adamslite.integrators.implicit.tolerance import weighted
-from adamslite.integrators.jolts import note_jolt
 from adamslite.integrators.linalg.blocks import add_to_diagonal, factor, solve
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import (
@@ -67,7 +66,6 @@ SHARED = (
     make_undoable,
     mass_signature,
     multiplier_change,
-    note_jolt,
     note_violation,
     open_search,
     pass_event,

@@ -104,10 +104,6 @@ NO_PACE = (-1e300, 1e300, 1e300)
 # Share of the limit of stability that equal steps of VERLET may take: the power iteration comes to
 # the eigenvalue from below.
 STABLE = 0.93
-
-# Share of the largest velocity from which a jolt is large: a fast vibration with 8 steps (HHT) or 3
-# steps (RADAU) a period, or an impact in as few.
-JOLT = 0.25
 # A state of DIFF in the workspace: its value, its rate, the value from which it counts.
 STATE_SIZE, STATE_ORIGIN = 3, 2
 MODE_DYNAMICS = 4.0
@@ -213,9 +209,8 @@ class Report(Record):
     open_by``: of a corrector that failed; ``torn``: a redundant row that opened; ``vibrating
     vibration``: what capped the order, its rate; ``spent``: sum of errors; ``divided``: fixed steps
     that were; ``stable_step``: the longest for equal steps; ``moved``: by a projection; ``stiffness
-    damping``: spectral radii of M^-1 K, M^-1 C; ``jolt speed jolts``: largest change of a velocity
-    that accelerations leave open, largest velocity, how many were large; ``floor``: the largest
-    accepted error that is round-off.
+    damping``: spectral radii of M^-1 K, M^-1 C; ``floor``: the largest accepted error that is
+    round-off.
     """
 
     t: float
@@ -242,9 +237,6 @@ class Report(Record):
     moved: float
     stiffness: float
     damping: float
-    jolt: float
-    speed: float
-    jolts: int
     floor: float
 
 

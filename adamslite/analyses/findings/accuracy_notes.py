@@ -317,12 +317,6 @@ def _of_method(settings: Settings, steps: int, report: contract.Report) -> Itera
             "vibrations faster than the steps were damped, not followed; where they matter, GSTIFF "
             "or RADAU follow them"
         )
-    if report.jolts > 0 or report.jolt > contract.JOLT * report.speed > 0.0:
-        yield (
-            f"a velocity changed by about {report.jolt:.2g} within a step in a way that its ends "
-            "do not show: impacts shorter than the steps were not followed; a smaller ERROR or "
-            "HMAX follows them"
-        )
 
 
 def _is_of_order_1(settings: Settings) -> bool:

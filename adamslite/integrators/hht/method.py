@@ -50,7 +50,6 @@ from adamslite.integrators.hht.state import (
 from adamslite.integrators.hht.step_size import ORDER, choose_step, fixed_step, limit_step
 from adamslite.integrators.implicit.step_size import first_step
 from adamslite.integrators.implicit.tolerance import is_allowed
-from adamslite.integrators.jolts import note_jolt, start_jolts
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import track
 from adamslite.integrators.records import note_violation
@@ -93,7 +92,6 @@ def begin(P: Problem, L: Plan, C: Control) -> int:
     C.t, C.blamed, C.fixed = P.settings.t, NOBODY, fixed_step(P)
     C.life, C.served = KEEP_STEPS, KEEP_STEPS + 1
     P.report.rough_steps = 0
-    start_jolts(P)
     start_events(P, C.fixed == 0.0, first_order_share(P) > 0.0)
     started = accelerations(P, L, C.t, P.q, P.u, P.a, P.z, P.rd)
     hold_watch(P)
@@ -142,7 +140,6 @@ def accept(P: Problem, L: Plan, C: Control, norm: float) -> int:
     C.t = end_of_step(P, C, step_limit(P, C.row) if C.fixed == 0.0 else horizon(P))
     C.h_last, C.retries, C.blamed, C.norm = C.h, 0, NOBODY, 0.0
     C.age += 1
-    note_jolt(P, P.history[P.sizes.n :], C.h, False)
     keep_rates(P)
     note_violation(P, C.t)
     audit(P, L, C.t)

@@ -24,7 +24,6 @@ from adamslite.integrators.events.events import happened, start_events
 from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins
 from adamslite.integrators.events.stops import horizon
 from adamslite.integrators.implicit.step_size import first_step
-from adamslite.integrators.jolts import note_jolt, start_jolts
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import track
 from adamslite.integrators.radau.control import Control
@@ -92,7 +91,6 @@ def begin(P: Problem, L: Plan, C: Control) -> int:
     Y, t = P.history, P.settings.t
     n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     P.undoing[:] = 0
-    start_jolts(P)
     P.report.floor = 0.0
     C[:] = 0
     for i in range(P.history.size):
@@ -164,7 +162,6 @@ def accept(P: Problem, L: Plan, C: Control, error: float) -> int:
     if row < P.times.size and abs(P.times[row] - t) < ALMOST * h:
         t = P.times[row]
     put_end(P, C)
-    note_jolt(P, P.history[P.sizes.n :], h, True)
     keep_solution(P)
     note_violation(P, t)
     audit(P, L, t)
