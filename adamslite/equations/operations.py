@@ -28,7 +28,7 @@ from adamslite.integrators.events.guards import hold_watch, keep_margins, let_go
 from adamslite.integrators.events.harmless import take_harmless
 from adamslite.integrators.events.search import judge, open_search
 from adamslite.integrators.events.stops import sample_clock, set_clock, set_pace
-from adamslite.integrators.implicit.failures import wildest
+from adamslite.integrators.failure_notes import wildest
 from adamslite.integrators.implicit.step_size import first_step, jerk, retry_factor
 from adamslite.integrators.implicit.tolerance import weighted
 from adamslite.integrators.linalg.blocks import add_to_diagonal, factor, solve
@@ -45,7 +45,7 @@ from adamslite.integrators.motion_equations import (
 from adamslite.integrators.newton import apply_increment, multiplier_change
 from adamslite.integrators.records import note_violation, write_record
 from adamslite.integrators.step_back import before_trouble, make_undoable
-from adamslite.integrators.stepping.accepted import count_from_here
+from adamslite.integrators.stepping.outcome import count_from_here
 from adamslite.integrators.unconstrained import spectrum
 from adamslite.native.translate import native
 

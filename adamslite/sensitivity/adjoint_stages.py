@@ -33,7 +33,7 @@ import numpy as np
 
 from adamslite.errors import UsageError
 from adamslite.integrators.radau.coefficients import INVERSE, NODE
-from adamslite.integrators.radau.history import Y_ROWS, Z_ROWS
+from adamslite.integrators.radau.control import Y_ROWS, Z_ROWS
 from adamslite.sensitivity import taped
 from adamslite.sensitivity.adjoint_columns import Seed
 from adamslite.sensitivity.adjoint_sweep import Sweep

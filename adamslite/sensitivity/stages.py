@@ -26,9 +26,8 @@ from adamslite.integrators.implicit.formulation import equations_kept, is_stabil
 from adamslite.integrators.linalg.plan import HUGE, TINY, Plan
 from adamslite.integrators.motion_equations import project_on_constraints, track
 from adamslite.integrators.radau.coefficients import INVERSE, NODE
-from adamslite.integrators.radau.control import Control
+from adamslite.integrators.radau.control import RATES, Z_ROWS, Control
 from adamslite.integrators.radau.dense_output import collocated
-from adamslite.integrators.radau.history import RATES, Z_ROWS
 from adamslite.integrators.radau.stages import (
     put_stage,
     radau_jacobian,

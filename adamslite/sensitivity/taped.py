@@ -19,7 +19,7 @@ from adamslite.integrators.audit_record import TAPE_HEAD
 from adamslite.integrators.bdf.history import room
 from adamslite.integrators.contract import AUDIT, DONE
 from adamslite.integrators.linalg.plan import TINY
-from adamslite.integrators.radau.history import KEPT_ROWS, KEPT_Z, Y_ROWS
+from adamslite.integrators.radau.control import KEPT_ROWS, KEPT_Z, Y_ROWS
 from adamslite.native.worker import interruptible
 from adamslite.results.outcomes import Outcome
 from adamslite.sensitivity.begin import ROWS

@@ -11,8 +11,7 @@ from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.linalg.transposed import solve_transposed
 from adamslite.integrators.motion_equations import WATCH, guard_values, jacobian, track
 from adamslite.integrators.radau.coefficients import TO_MODES, TO_STAGES
-from adamslite.integrators.radau.control import Control
-from adamslite.integrators.radau.history import Z_ROWS
+from adamslite.integrators.radau.control import Z_ROWS, Control
 from adamslite.integrators.radau.stages import (
     put_stage,
     radau_jacobian,

@@ -25,9 +25,8 @@ from adamslite.integrators.events.search import (
 from adamslite.integrators.implicit.formulation import equations_kept
 from adamslite.integrators.implicit.step_size import jumped
 from adamslite.integrators.linalg.plan import Plan
-from adamslite.integrators.stepping.accepted import keep_solution
 from adamslite.integrators.stepping.control import RUNNING
-from adamslite.integrators.stepping.outcome import note_signature
+from adamslite.integrators.stepping.outcome import keep_solution, note_signature
 from adamslite.native.translate import native, seldom
 
 

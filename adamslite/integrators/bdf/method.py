@@ -64,19 +64,22 @@ from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import track
 from adamslite.integrators.records import note_violation
 from adamslite.integrators.step_back import make_undoable
-from adamslite.integrators.stepping.accepted import keep_solution
 from adamslite.integrators.stepping.control import NOBODY, RUNNING
 from adamslite.integrators.stepping.outcome import (
+    LONGER,
     end_of_run,
     end_of_step,
     goes_on,
+    has_failed,
     is_cut_short,
+    keep_solution,
     note_signature,
     note_try,
     passed_singularity,
+    round_off,
+    too_small,
 )
 from adamslite.integrators.stepping.output import is_due
-from adamslite.integrators.stepping.step_size import LONGER, has_failed, round_off, too_small
 from adamslite.native.translate import native, rare
 
 # Steps that differ by less than this share are equal.

@@ -15,7 +15,7 @@ from adamslite.integrators.contract import Problem
 from adamslite.integrators.events.stops import longest_step
 from adamslite.integrators.implicit.step_size import step_ratio
 from adamslite.integrators.implicit.tolerance import beyond_round_off, most_wrong, weighted
-from adamslite.integrators.stepping.step_size import LONGER, cut
+from adamslite.integrators.stepping.outcome import LONGER, cut
 from adamslite.native.translate import native
 
 # The next step aims at an estimated error below ERROR by these factors (at a higher order: more

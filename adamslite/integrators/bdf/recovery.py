@@ -7,15 +7,19 @@ from adamslite.integrators.bdf.order import SAFETY
 from adamslite.integrators.bdf.state import resize, restore_state
 from adamslite.integrators.contract import NEWTON_FAILED, NOT_FINITE, SINGULAR_MASS, Problem
 from adamslite.integrators.events.guards import let_go
-from adamslite.integrators.failure_notes import note_trouble
-from adamslite.integrators.implicit.failures import wildest
+from adamslite.integrators.failure_notes import note_trouble, wildest
 from adamslite.integrators.implicit.formulation import equations_kept
 from adamslite.integrators.implicit.step_size import CUTS, retry_factor, shrunk
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.step_back import before_trouble
 from adamslite.integrators.stepping.control import RUNNING
-from adamslite.integrators.stepping.outcome import NEARER, OVERFLOW, SINGULAR_RESOLUTION, why_stuck
-from adamslite.integrators.stepping.step_size import cut
+from adamslite.integrators.stepping.outcome import (
+    NEARER,
+    OVERFLOW,
+    SINGULAR_RESOLUTION,
+    cut,
+    why_stuck,
+)
 from adamslite.native.translate import native, rare, seldom
 
 # A step is noise, not truncation, when the error estimates of this many tries in turn keep more

@@ -16,7 +16,7 @@ from adamslite.integrators.contract import Problem
 from adamslite.integrators.events.stops import longest_step
 from adamslite.integrators.explicit.control import Control
 from adamslite.integrators.explicit.error import SAFETY
-from adamslite.integrators.explicit.state import restore_state
+from adamslite.integrators.explicit.stages import restore_state
 from adamslite.integrators.unconstrained import POWERS, clear, invert_bodies, radius
 from adamslite.native.translate import native, seldom
 

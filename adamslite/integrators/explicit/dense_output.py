@@ -14,16 +14,16 @@ References: Hairer, Norsett, Wanner, Solving ODE I, 1993, section II.6; Enright,
 from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
-from adamslite.integrators.explicit.control import Control
-from adamslite.integrators.explicit.dop853 import LATE, POWERS, ROW, TIMES
-from adamslite.integrators.explicit.history import (
+from adamslite.integrators.explicit.control import (
     BETWEEN,
     K_NEW,
     LATE_STAGES,
     NEXT_STATE,
     OLD,
     SLOPE,
+    Control,
 )
+from adamslite.integrators.explicit.dop853 import LATE, POWERS, ROW, TIMES
 from adamslite.integrators.explicit.stages import (
     add_combined,
     combine,

@@ -9,15 +9,22 @@ from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.events.stops import longest_step
-from adamslite.integrators.explicit.control import LANES, Control
+from adamslite.integrators.explicit.control import (
+    BETWEEN,
+    K_NEW,
+    LANES,
+    NEXT_STATE,
+    OLD,
+    SCALES,
+    Control,
+)
 from adamslite.integrators.explicit.dop853 import ERROR3, ERROR5
-from adamslite.integrators.explicit.history import BETWEEN, K_NEW, NEXT_STATE, OLD, SCALES
 from adamslite.integrators.explicit.lanes import unknown_of
 from adamslite.integrators.explicit.nystrom import Q_SCALE, U_SCALE
 from adamslite.integrators.explicit.stages import combine, rates_at
 from adamslite.integrators.linalg.norms import exceeds
 from adamslite.integrators.linalg.plan import HUGE, Plan
-from adamslite.integrators.stepping.step_size import LONGER
+from adamslite.integrators.stepping.outcome import LONGER
 from adamslite.native.translate import Reals, maximum, native
 
 # The next step aims at this share of what the error test allows; exponents of the present and the

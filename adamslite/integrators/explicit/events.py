@@ -20,15 +20,13 @@ from adamslite.integrators.events.search import (
     shorter,
     starts_there,
 )
-from adamslite.integrators.explicit.control import Control
+from adamslite.integrators.explicit.control import BETWEEN, K_NEW, NEXT_STATE, OLD, Control
 from adamslite.integrators.explicit.dense_output import interpolated, late_stages
 from adamslite.integrators.explicit.error import LEAST_ERROR, first_step
-from adamslite.integrators.explicit.history import BETWEEN, K_NEW, NEXT_STATE, OLD
-from adamslite.integrators.explicit.stages import exact_rates
-from adamslite.integrators.explicit.state import restore_state
+from adamslite.integrators.explicit.stages import exact_rates, restore_state
 from adamslite.integrators.linalg.plan import Plan
-from adamslite.integrators.stepping.accepted import keep_solution
 from adamslite.integrators.stepping.control import RUNNING
+from adamslite.integrators.stepping.outcome import keep_solution
 from adamslite.native.translate import native, seldom
 
 

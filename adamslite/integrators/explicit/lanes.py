@@ -9,8 +9,7 @@ Loads come from :mod:`adamslite.kernels.code.lane_writer`.
 from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
-from adamslite.integrators.explicit.control import Control
-from adamslite.integrators.explicit.history import INVERSE
+from adamslite.integrators.explicit.control import INVERSE, Control
 from adamslite.integrators.lanes import run_lanes, run_masses
 from adamslite.integrators.linalg.plan import TINY
 from adamslite.integrators.motion_equations import put_time

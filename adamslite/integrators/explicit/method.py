@@ -30,7 +30,18 @@ from adamslite.integrators.events.stops import (
     step_limit,
 )
 from adamslite.integrators.explicit.choice import begin_with_formula, choose_formula, stays
-from adamslite.integrators.explicit.control import BODIES, LANES, MASSES, TIED, Control
+from adamslite.integrators.explicit.control import (
+    BODIES,
+    INVERSE,
+    K_NEW,
+    LANES,
+    LINE,
+    MASSES,
+    NEXT_STATE,
+    OLD,
+    TIED,
+    Control,
+)
 from adamslite.integrators.explicit.dense_output import is_within, record
 from adamslite.integrators.explicit.error import (
     LEAST_ERROR,
@@ -40,7 +51,6 @@ from adamslite.integrators.explicit.error import (
     quick_error,
 )
 from adamslite.integrators.explicit.events import end_at_crossing, pass_on, passes_crossing
-from adamslite.integrators.explicit.history import INVERSE, K_NEW, LINE, NEXT_STATE, OLD
 from adamslite.integrators.explicit.lanes import into_lanes, lane_masses_clear, lane_tables
 from adamslite.integrators.explicit.recovery import (
     after_failure,
@@ -51,28 +61,30 @@ from adamslite.integrators.explicit.recovery import (
     stuck,
 )
 from adamslite.integrators.explicit.stages import (
+    base_here,
     end_rates,
     exact_rates,
     put_free_state,
     rates_at,
+    restore_state,
     stages,
+    take_state,
 )
-from adamslite.integrators.explicit.state import base_here, restore_state, take_state
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import track
 from adamslite.integrators.records import note_violation, write_record
 from adamslite.integrators.step_back import make_undoable
-from adamslite.integrators.stepping.accepted import keep_solution
 from adamslite.integrators.stepping.control import NOBODY, RUNNING
 from adamslite.integrators.stepping.outcome import (
+    LONGER,
     end_of_run,
     end_of_step,
     is_cut_short,
+    keep_solution,
     note_signature,
     note_try,
     passed_singularity,
 )
-from adamslite.integrators.stepping.step_size import LONGER
 from adamslite.integrators.unconstrained import invert_inertia, is_free, mass_tables
 from adamslite.native.translate import Reals, native, rare
 

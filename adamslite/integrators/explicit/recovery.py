@@ -10,11 +10,9 @@ from __future__ import annotations
 
 from adamslite.integrators.contract import SINGULAR_MASS, Problem
 from adamslite.integrators.events.guards import let_go
-from adamslite.integrators.explicit.control import TIED, Control
+from adamslite.integrators.explicit.control import OLD, TIED, Control
 from adamslite.integrators.explicit.error import LARGE, SHRINK, cut_step, smaller
-from adamslite.integrators.explicit.history import OLD
-from adamslite.integrators.explicit.stages import exact_rates
-from adamslite.integrators.explicit.state import restore_state
+from adamslite.integrators.explicit.stages import exact_rates, restore_state
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.projection import sensitivity
 from adamslite.integrators.step_back import before_trouble

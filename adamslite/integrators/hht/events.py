@@ -20,9 +20,8 @@ from adamslite.integrators.hht.state import restore_state, start_values
 from adamslite.integrators.implicit.step_size import LOOK_AHEAD, first_step, jerk, jumped
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import vector_rates
-from adamslite.integrators.stepping.accepted import keep_solution
 from adamslite.integrators.stepping.control import RUNNING
-from adamslite.integrators.stepping.outcome import note_signature
+from adamslite.integrators.stepping.outcome import keep_solution, note_signature
 from adamslite.native.translate import native, seldom
 
 # The first step behind an event: where its estimated error is this share of ERROR.

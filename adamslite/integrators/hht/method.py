@@ -30,31 +30,40 @@ from __future__ import annotations
 
 from adamslite.integrators.accelerations import accelerations
 from adamslite.integrators.audit.balance import audit
-from adamslite.integrators.contract import BROKEN_START, FULL, SINGULAR_MASS, Problem
+from adamslite.integrators.contract import (
+    BROKEN_START,
+    FULL,
+    INDEX3,
+    NOT_FINITE,
+    SINGULAR_MASS,
+    Problem,
+)
 from adamslite.integrators.events.events import happened, start_events
-from adamslite.integrators.events.guards import hold_watch, keep_margins
+from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins, let_go
 from adamslite.integrators.events.stops import horizon, step_limit
+from adamslite.integrators.failure_notes import note_trouble, wildest
 from adamslite.integrators.hht.control import Control
 from adamslite.integrators.hht.corrector import KEEP_STEPS, correct
 from adamslite.integrators.hht.dense_output import record
 from adamslite.integrators.hht.error import first_order_share, local_error
 from adamslite.integrators.hht.events import end_at_crossing, pass_on, passes_crossing
 from adamslite.integrators.hht.prediction import choose_coefficients, predict
-from adamslite.integrators.hht.recovery import after_failure, after_rejection, is_stuck, stuck
 from adamslite.integrators.hht.state import (
     keep_rates,
     restore_state,
     start_from_here,
     start_values,
 )
-from adamslite.integrators.hht.step_size import ORDER, choose_step, fixed_step, limit_step
-from adamslite.integrators.implicit.step_size import first_step
+from adamslite.integrators.hht.step_size import ORDER, SAFETY, choose_step, fixed_step, limit_step
+from adamslite.integrators.implicit.step_size import first_step, retry_factor, shrunk
 from adamslite.integrators.implicit.tolerance import is_allowed
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import track
 from adamslite.integrators.records import note_violation
 from adamslite.integrators.stepping.control import NOBODY, RUNNING
 from adamslite.integrators.stepping.outcome import (
+    OVERFLOW,
+    cut,
     end_of_run,
     end_of_step,
     goes_on,
@@ -63,9 +72,11 @@ from adamslite.integrators.stepping.outcome import (
     note_signature,
     note_try,
     passed_singularity,
+    too_small,
+    why_stuck,
 )
 from adamslite.integrators.stepping.output import is_due, record_start
-from adamslite.native.translate import native, rare
+from adamslite.native.translate import native, rare, seldom
 
 
 @native
@@ -115,7 +126,8 @@ def advance(P: Problem, L: Plan, C: Control) -> int:
         return outcome
     limit_step(P, C)
     if is_stuck(P, C):
-        return stuck(P, L, C)
+        restore_state(P, C)
+        return why_stuck(P, L, C)
     note_try(P, C, ORDER)
     choose_coefficients(P, C)
     predict(P, C)
@@ -163,4 +175,45 @@ def complete(P: Problem, L: Plan, C: Control) -> int:
         return pass_on(P, L, C)
     keep_margins(P)
     choose_step(P, C, C.accepted)
+    return RUNNING
+
+
+# Share of a fixed step below which it is not divided any more.
+LEAST_SHARE = 1e-9
+
+
+@native
+def is_stuck(P: Problem, C: Control) -> bool:
+    """Whether steps have become too small to go on."""
+    if C.fixed > 0.0:
+        return C.h < LEAST_SHARE * C.fixed or crawls(P, C.h)
+    return too_small(P, C) or crawls(P, C.h)
+
+
+@native
+@seldom
+def after_failure(P: Problem, C: Control) -> int:
+    """A shorter step with a new matrix; near a singular posture also longer ones."""
+    P.count.failures += 1
+    C.factored, C.equal = 0.0, 0
+    if C.fixed > 0.0:
+        P.report.divided += 1
+    if let_go(P):
+        return RUNNING
+    C.retries += 1
+    C.blamed = wildest(P)
+    note_trouble(P, INDEX3, P.report.iteration)
+    C.h *= cut(P, C, retry_factor(C)) if C.fixed == 0.0 else retry_factor(C)
+    return RUNNING
+
+
+@native
+@seldom
+def after_rejection(P: Problem, C: Control, norm: float) -> int:
+    """The error was too large: a smaller step."""
+    if not norm < OVERFLOW:
+        return NOT_FINITE
+    P.count.rejected += 1
+    C.equal, C.norm = 0, norm
+    C.h *= cut(P, C, shrunk(SAFETY * norm, ORDER))
     return RUNNING

@@ -9,7 +9,7 @@ from __future__ import annotations
 from adamslite.integrators.accelerations import put_state
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.hht.control import Control
-from adamslite.integrators.stepping.accepted import count_from_here, keep_solution
+from adamslite.integrators.stepping.outcome import count_from_here, keep_solution
 from adamslite.native.translate import native, seldom
 
 

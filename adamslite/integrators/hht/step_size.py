@@ -12,7 +12,7 @@ from adamslite.integrators.events.stops import (
 )
 from adamslite.integrators.hht.control import Control
 from adamslite.integrators.implicit.step_size import step_ratio
-from adamslite.integrators.stepping.step_size import LONGER, cut, round_off
+from adamslite.integrators.stepping.outcome import LONGER, cut, round_off
 from adamslite.native.translate import native
 
 ORDER = 2

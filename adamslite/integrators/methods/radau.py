@@ -6,8 +6,7 @@ from adamslite.language.method import Equations, Method, Settings, register
 def prepare(system: Equations, settings: Settings) -> None:
     """Coefficients, and room for the numbers of the method, the stages and the complex factors."""
     from adamslite.integrators.radau.coefficients import coefficients
-    from adamslite.integrators.radau.control import Control
-    from adamslite.integrators.radau.history import Y_ROWS, Z_ROWS
+    from adamslite.integrators.radau.control import Y_ROWS, Z_ROWS, Control
 
     z = system.m + system.nv + system.ns + system.holonomic
     system.tableau = coefficients()

@@ -16,9 +16,8 @@ def prepare(system: Equations, settings: Settings) -> None:
     """Coefficients, room for the numbers of the method, for the stages and for inverse inertias,
     factors of ERROR.
     """
-    from adamslite.integrators.explicit.control import Control
+    from adamslite.integrators.explicit.control import HISTORY_ROWS, LINE, SCALES, TABLES, Control
     from adamslite.integrators.explicit.dop853 import tableau
-    from adamslite.integrators.explicit.history import HISTORY_ROWS, LINE, SCALES, TABLES
 
     scales, bodies = error_scales(system, settings.scale), len(system.model.bodies)
     inverse = 9 * bodies

@@ -11,8 +11,7 @@ from adamslite.integrators.contract import Problem
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.newton import ROUND_OFF, SHRINKING, renews, serves, weigh_residuals
 from adamslite.integrators.radau.coefficients import REAL
-from adamslite.integrators.radau.control import Control
-from adamslite.integrators.radau.history import ORIGIN
+from adamslite.integrators.radau.control import ORIGIN, Control
 from adamslite.integrators.radau.stages import (
     move_stages,
     radau_jacobian,

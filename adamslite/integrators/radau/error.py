@@ -24,8 +24,7 @@ from adamslite.integrators.motion_equations import (
 )
 from adamslite.integrators.newton import apply_increment
 from adamslite.integrators.radau.coefficients import REAL, WEIGHT
-from adamslite.integrators.radau.control import Control
-from adamslite.integrators.radau.history import ORIGIN
+from adamslite.integrators.radau.control import ORIGIN, Control
 from adamslite.integrators.radau.stages import put_counted
 from adamslite.native.translate import Reals, native
 

@@ -41,9 +41,8 @@ from adamslite.integrators.radau.state import (
     put_end,
     restore_state,
 )
-from adamslite.integrators.stepping.accepted import keep_solution
 from adamslite.integrators.stepping.control import RUNNING
-from adamslite.integrators.stepping.outcome import note_signature
+from adamslite.integrators.stepping.outcome import keep_solution, note_signature
 from adamslite.native.translate import native, seldom
 
 # A step to a crossing that ends before it by less than this share is taken again, longer, but not

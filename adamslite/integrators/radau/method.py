@@ -19,51 +19,52 @@ from __future__ import annotations
 
 from adamslite.integrators.accelerations import accelerations, put_state
 from adamslite.integrators.audit.balance import audit
-from adamslite.integrators.contract import BROKEN_START, FULL, SINGULAR_MASS, Problem
+from adamslite.integrators.contract import BROKEN_START, FULL, NOT_FINITE, SINGULAR_MASS, Problem
 from adamslite.integrators.events.events import happened, start_events
-from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins
+from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins, let_go
 from adamslite.integrators.events.stops import horizon
-from adamslite.integrators.implicit.step_size import first_step
+from adamslite.integrators.failure_notes import note_trouble, wildest
+from adamslite.integrators.implicit.formulation import equations_kept
+from adamslite.integrators.implicit.step_size import first_step, retry_factor
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import track
-from adamslite.integrators.radau.control import Control
+from adamslite.integrators.radau.control import ORIGIN, Control
 from adamslite.integrators.radau.corrector import correct
-from adamslite.integrators.radau.dense_output import record
+from adamslite.integrators.radau.dense_output import predict, record
 from adamslite.integrators.radau.error import local_error
 from adamslite.integrators.radau.events import (
     end_at_crossing,
     falls_short,
+    is_at_crossing,
     pass_on,
     passes_crossing,
+    switch_at_start,
     touch_gently,
 )
-from adamslite.integrators.radau.history import ORIGIN
-from adamslite.integrators.radau.prediction import predict
-from adamslite.integrators.radau.recovery import (
-    after_failure,
-    after_rejection,
-    stuck,
-)
-from adamslite.integrators.radau.stages import keep_stages
+from adamslite.integrators.radau.stages import keep_stages, put_stage
 from adamslite.integrators.radau.state import put_end, restore_state
-from adamslite.integrators.radau.step_size import choose_step, limit_step
+from adamslite.integrators.radau.step_size import choose_step, limit_step, step_factor
 from adamslite.integrators.records import note_violation
-from adamslite.integrators.stepping.accepted import count_from_here, keep_solution
 from adamslite.integrators.stepping.control import NOBODY, RUNNING
 from adamslite.integrators.stepping.outcome import (
     ALMOST,
+    OVERFLOW,
+    count_from_here,
+    cut,
     end_of_run,
     end_of_step,
     goes_on,
     is_cut_short,
+    keep_solution,
     near_singularity,
     note_signature,
     note_try,
     passed_singularity,
+    too_small,
+    why_stuck,
 )
 from adamslite.integrators.stepping.output import is_due, record_start
-from adamslite.integrators.stepping.step_size import too_small
-from adamslite.native.translate import native, rare
+from adamslite.native.translate import native, rare, seldom
 
 ORDER = 5
 
@@ -124,7 +125,8 @@ def advance(P: Problem, L: Plan, C: Control) -> int:
         return outcome
     limit_step(P, C)
     if too_small(P, C) or crawls(P, C.h):
-        return stuck(P, L, C)
+        restore_state(P, C)
+        return why_stuck(P, L, C)
     note_try(P, C, ORDER)
     predict(P, C)
     if not correct(P, L, C):
@@ -191,4 +193,44 @@ def complete(P: Problem, L: Plan, C: Control) -> int:
     keep_margins(P)
     if P.search.taken:
         touch_gently(P, L, C)
+    return RUNNING
+
+
+# Below this share of HMAX the error of a step is round-off, and nobody's.
+BLAMELESS = 1e-9
+
+
+@native
+@seldom
+def after_failure(P: Problem, C: Control) -> int:
+    """Newton failed: new derivatives when they were old, else another step."""
+    P.count.failures += 1
+    old = not C.fresh and C.known
+    C.known, C.factored, C.rate, C.cautious = False, 0.0, 1.0, True
+    if not old and not let_go(P):
+        C.retries += 1
+        C.blamed = wildest(P)
+        put_stage(P, 3, C.h)
+        note_trouble(P, equations_kept(P), C.turns)
+        C.h *= cut(P, C, retry_factor(C))
+    return RUNNING
+
+
+@native
+@seldom
+def after_rejection(P: Problem, L: Plan, C: Control, error: float) -> int:
+    """The error was too large: a shorter step, with new derivatives where they were old, because
+    these may be all that is wrong with the estimate.
+    """
+    if not error < OVERFLOW:
+        return NOT_FINITE
+    if is_at_crossing(P, C, error):
+        return switch_at_start(P, L, C)
+    P.count.rejected += 1
+    C.cautious, C.norm = True, error
+    if not C.fresh:
+        C.known = False
+    C.h *= cut(P, C, step_factor(C, error))
+    if C.h > BLAMELESS * P.settings.h_max:
+        C.blamed = P.report.where
     return RUNNING

@@ -59,8 +59,7 @@ from adamslite.integrators.radau.coefficients import (
     TO_MODES,
     TO_STAGES,
 )
-from adamslite.integrators.radau.control import Control
-from adamslite.integrators.radau.history import BEFORE, ORIGIN, RATES, Y_ROWS, Z_ROWS
+from adamslite.integrators.radau.control import BEFORE, ORIGIN, RATES, Y_ROWS, Z_ROWS, Control
 from adamslite.native.translate import Reals, maximum, native
 
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from adamslite.integrators.accelerations import put_state
 from adamslite.integrators.contract import Problem
-from adamslite.integrators.radau.control import Control
-from adamslite.integrators.radau.history import ORIGIN, RATES
+from adamslite.integrators.radau.control import ORIGIN, RATES, Control
 from adamslite.integrators.radau.stages import stage_z
 from adamslite.native.translate import native, seldom
 

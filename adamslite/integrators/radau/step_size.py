@@ -8,8 +8,7 @@ from adamslite.integrators.contract import Problem
 from adamslite.integrators.events.stops import horizon, longest_step, set_pace
 from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.corrector import QUICK
-from adamslite.integrators.stepping.outcome import ALMOST
-from adamslite.integrators.stepping.step_size import cut, round_off
+from adamslite.integrators.stepping.outcome import ALMOST, cut, round_off
 from adamslite.native.translate import native
 
 # The next step aims at this share of the step that the error allows; it is changed only when it

@@ -1,4 +1,6 @@
-"""The end of a run: at its time, by the user, at a singular posture, or because steps vanish."""
+"""Between steps: the accepted state, steps after failures, and the end of a run: at its time, by the
+user, at a singular posture, or because steps vanish.
+"""
 
 from __future__ import annotations
 
@@ -17,6 +19,7 @@ from adamslite.integrators.contract import (
 )
 from adamslite.integrators.events.stops import least_step
 from adamslite.integrators.linalg.plan import Plan
+from adamslite.integrators.motion_equations import PART
 from adamslite.integrators.stepping.budget import spent
 from adamslite.integrators.stepping.control import RUNNING, StepControl
 from adamslite.native.translate import Reals, native, rare
@@ -123,3 +126,64 @@ def why_stuck(P: Problem, L: Plan, C: StepControl) -> int:
 def corrector_failed(C: StepControl) -> bool:
     """Whether the last tries failed for the corrector, not for accuracy."""
     return C.retries > 2 or (C.retries > 0 and C.norm == 0.0)
+
+
+# A step longer than HMIN by more than this share may be cut to it.
+LONGER = 1.0000001
+# A step cut to HMIN is HMIN but for its last digit.
+LAST_DIGIT = 1e-12
+
+
+@native
+def cut(P: Problem, C: StepControl, factor: float) -> float:
+    """``factor`` of the step, but not below HMIN, unless a step of HMIN has failed."""
+    least = P.settings.h_min
+    if C.h * factor >= least:
+        return factor
+    if C.h > least * LONGER:
+        return least / C.h
+    return factor if has_failed(C) else max(factor, 1.0)
+
+
+@native
+def too_small(P: Problem, C: StepControl) -> bool:
+    """Whether failed tries have come down below HMIN; a step that only reaches a stop may be as
+    short.
+    """
+    least = P.settings.h_min if has_failed(C) else least_step(P)
+    return C.h < (1.0 - LAST_DIGIT) * least
+
+
+@native
+def round_off(P: Problem, C: StepControl) -> float:
+    """By how much a step may be extended to a stop that it all but reaches: one that was given up
+    has to get shorter.
+    """
+    return 0.0 if has_failed(C) else least_step(P)
+
+
+@native
+def has_failed(C: StepControl) -> bool:
+    """Whether a try was given up since the last accepted step."""
+    return C.retries > 0 or C.norm > 0.0
+
+
+@native
+def keep_solution(P: Problem) -> None:
+    """Accelerations, multipliers, variables and states in place are the accepted ones."""
+    for i in range(P.sizes.n):
+        P.ra[i] = P.a[i]
+    for i in range(P.z.size):
+        P.rz[i] = P.z[i]
+
+
+@native
+def count_from_here(P: Problem) -> None:
+    """The workspace's attitudes become the base of rotation vectors."""
+    for b in range(P.sizes.nb):
+        if P.body[b].width == PART:
+            i, o = P.body[b].first, P.body[b].at
+            for k in range(9):
+                P.base[9 * b + k] = P.W[o + 15 + k]
+            for k in range(3, 6):
+                P.q[i + k] = 0.0
