@@ -28,6 +28,7 @@ from adamslite.integrators.bdf.state import tests_velocities
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.implicit.formulation import equations_kept, is_stabilised
 from adamslite.integrators.linalg.blocks import factor, solve
+from adamslite.integrators.linalg.norms import largest_of
 from adamslite.integrators.linalg.plan import TINY, Plan
 from adamslite.integrators.motion_equations import jacobian, project_on_constraints, spread
 from adamslite.integrators.newton import add_mixed_product
@@ -220,7 +221,7 @@ def apply(P: Problem, S: Forward, cu: float) -> float:
         y[2 * n + k] -= F[rest + k]
     for k in range(rest + ns, P.sizes.nz):
         S.mu[k - rest - ns] -= F[k]
-    return max(farthest(F, n), farthest(F[rest:], ns))
+    return max(largest_of(F, n), largest_of(F[rest:], ns))
 
 
 @native
@@ -232,38 +233,23 @@ def is_near(
     """
     n, ns, share = P.sizes.n, P.sizes.ns, LEFT / (order + 1)
     yp, y = S.y[0:], S.y[2 * S.width :]
-    error = max(farthest(S.v, n), farthest_apart(y[2 * n :], yp[2 * n :], ns))
+    error = max(largest_of(S.v, n), largest_gap(y[2 * n :], yp[2 * n :], ns))
     if left * size > max(S.limit * S.top[2 * number], share * error):
         return False
     if not tests_velocities(P) and not is_stabilised(P):
         return True
-    error = farthest_apart(y[n:], yp[n:], n)
-    moved = farthest_apart(y[n:], P.x, n)
+    error = largest_gap(y[n:], yp[n:], n)
+    moved = largest_gap(y[n:], P.x, n)
     return left * moved <= max(S.limit * S.top[2 * number + 1], share * error)
 
 
 @native
-def farthest(x: Reals, count: int) -> float:
-    """The largest |x|, in four sequences that do not wait for each other."""
-    a, b, c, d, whole = 0.0, 0.0, 0.0, 0.0, count - count % 4
-    for i in range(0, whole, 4):
-        a, b = max(a, abs(x[i])), max(b, abs(x[i + 1]))
-        c, d = max(c, abs(x[i + 2])), max(d, abs(x[i + 3]))
-    for i in range(whole, count):
-        a = max(a, abs(x[i]))
-    return max(max(a, b), max(c, d))
-
-
-@native
-def farthest_apart(x: Reals, y: Reals, count: int) -> float:
-    """The largest |x - y|, likewise."""
-    a, b, c, d, whole = 0.0, 0.0, 0.0, 0.0, count - count % 4
-    for i in range(0, whole, 4):
-        a, b = max(a, abs(x[i] - y[i])), max(b, abs(x[i + 1] - y[i + 1]))
-        c, d = max(c, abs(x[i + 2] - y[i + 2])), max(d, abs(x[i + 3] - y[i + 3]))
-    for i in range(whole, count):
-        a = max(a, abs(x[i] - y[i]))
-    return max(max(a, b), max(c, d))
+def largest_gap(x: Reals, y: Reals, count: int) -> float:
+    """The largest |x - y|."""
+    top = 0.0
+    for i in range(count):
+        top = max(top, abs(x[i] - y[i]))
+    return top
 
 
 @native

@@ -27,6 +27,7 @@ from adamslite.integrators.bdf.dense_output import interpolate
 from adamslite.integrators.bdf.differences import change_step, extend_history, extrapolate, gamma
 from adamslite.integrators.bdf.state import tests_velocities
 from adamslite.integrators.contract import DONE, SINGULAR_MASS, Problem
+from adamslite.integrators.linalg.norms import largest_of
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import track
 from adamslite.integrators.stepping.output import WITHIN
@@ -37,7 +38,6 @@ from adamslite.sensitivity.corrector import (
     MOST,
     continued,
     corrected,
-    farthest,
     forgotten,
     grown_older,
     kept_at,
@@ -143,8 +143,8 @@ def note_error(P: Problem, S: Forward, number: int, y: Reals, change: Reals, ord
     n = P.sizes.n
     for part in range(2 if tests_velocities(P) else 1):
         at = 2 * number + part
-        S.spent[at] += farthest(change[part * n :], n) / (order + 1)
-        S.top[at] = max(S.top[at], farthest(y[part * n :], n))
+        S.spent[at] += largest_of(change[part * n :], n) / (order + 1)
+        S.top[at] = max(S.top[at], largest_of(y[part * n :], n))
 
 
 @native

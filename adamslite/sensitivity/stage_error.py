@@ -17,13 +17,13 @@ from __future__ import annotations
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.implicit.formulation import equations_kept, is_stabilised
 from adamslite.integrators.linalg.blocks import solve
+from adamslite.integrators.linalg.norms import largest_of
 from adamslite.integrators.linalg.plan import TINY, Plan
 from adamslite.integrators.motion_equations import project_on_constraints
 from adamslite.integrators.radau.coefficients import REAL, WEIGHT
-from adamslite.integrators.radau.dense_output import quadratic
+from adamslite.integrators.radau.state import quadratic
 from adamslite.native.translate import Reals, copy, native
 from adamslite.sensitivity.contract import Forward, Tangents
-from adamslite.sensitivity.corrector import farthest
 from adamslite.sensitivity.tangents import put_direction, spun, tangent
 
 # The order of the error over that of the estimate, as measured.
@@ -47,8 +47,8 @@ def note_stage_errors(
             for row in range(0 if n <= i and i < 2 * n else 3):
                 H[(1 + row) * w + i] += H[i]
         for part in range(2):
-            at, error = 2 * number + part, farthest(S.y[part * n :], n)
-            S.top[at] = max(S.top[at], farthest(H[3 * w + part * n :], n))
+            at, error = 2 * number + part, largest_of(S.y[part * n :], n)
+            S.top[at] = max(S.top[at], largest_of(H[3 * w + part * n :], n))
             top = max(S.top[at], max(S.floor[number], TINY))
             S.spent[at] += top * (error / top) ** POWER
 

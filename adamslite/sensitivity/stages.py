@@ -23,11 +23,11 @@ from adamslite.integrators.audit_record import (
 )
 from adamslite.integrators.contract import DONE, SINGULAR_MASS, Problem
 from adamslite.integrators.implicit.formulation import equations_kept, is_stabilised
+from adamslite.integrators.linalg.norms import largest_of
 from adamslite.integrators.linalg.plan import HUGE, TINY, Plan
 from adamslite.integrators.motion_equations import project_on_constraints, track
 from adamslite.integrators.radau.coefficients import INVERSE, NODE
 from adamslite.integrators.radau.control import RATES, Z_ROWS, Control
-from adamslite.integrators.radau.dense_output import collocated
 from adamslite.integrators.radau.stages import (
     put_stage,
     radau_jacobian,
@@ -35,10 +35,11 @@ from adamslite.integrators.radau.stages import (
     stage_increments,
     stage_z,
 )
+from adamslite.integrators.radau.state import collocated
 from adamslite.integrators.stepping.output import WITHIN
 from adamslite.native.translate import Reals, copy, native
 from adamslite.sensitivity.contract import Forward, Tangents
-from adamslite.sensitivity.corrector import WORST_RATE, farthest, farthest_apart
+from adamslite.sensitivity.corrector import WORST_RATE, largest_gap
 from adamslite.sensitivity.stage_error import note_stage_errors
 from adamslite.sensitivity.start import at_start, jump, reset_states
 from adamslite.sensitivity.tangents import clear, put_direction, spun, tangent, write_outputs
@@ -181,7 +182,7 @@ def change_velocities(P: Problem, S: Forward, H: Reals, h: float) -> float:
         copy(S.y[stage * n :], H[(1 + stage) * w + n :], n)
     motion(P, S, H, h)
     for stage in range(3):
-        largest = max(largest, farthest_apart(H[(1 + stage) * w + n :], S.y[stage * n :], n))
+        largest = max(largest, largest_gap(H[(1 + stage) * w + n :], S.y[stage * n :], n))
     return largest
 
 
@@ -325,7 +326,7 @@ def scale(P: Problem, H: Reals, first: int, last: int) -> float:
     """The largest of the start and the stages, of entries ``first`` .. ``last``."""
     w, largest = 2 * P.sizes.n + P.sizes.ns, 1e-300
     for row in range(4):
-        largest = max(largest, farthest(H[row * w + first :], last - first))
+        largest = max(largest, largest_of(H[row * w + first :], last - first))
     return largest
 
 

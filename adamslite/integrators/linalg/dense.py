@@ -9,6 +9,7 @@ takes four.  Reference: Golub, Van Loan, Matrix Computations, 2013, section 3.2.
 
 from __future__ import annotations
 
+from adamslite.integrators.linalg.norms import largest_of
 from adamslite.integrators.linalg.plan import TINY
 from adamslite.native.translate import Alone, Ints, Reals, native
 
@@ -159,7 +160,7 @@ def negative_pivots(
     count, waiting = 0, 0
     for k in range(n):
         pivot, rest = work[k * s + k], n - k - 1
-        top = NOISE * largest(work[k * s + k + 1 :], rest)
+        top = NOISE * largest_of(work[k * s + k + 1 :], rest)
         if abs(pivot) <= max(top, late * found[at + k]):
             pivot = 0.0
             waiting += 1
@@ -201,7 +202,7 @@ def late_negatives(
     count = 0
     for k in range(n):
         pivot = work[k * s + k]
-        if found[at + k] == 0.0 and abs(pivot) > late * largest(A[o + k * s :], n):
+        if found[at + k] == 0.0 and abs(pivot) > late * largest_of(A[o + k * s :], n):
             found[at + k] = pivot
             count += 1 if pivot < 0.0 else 0
             for i in range(n):
@@ -210,12 +211,3 @@ def late_negatives(
                     if found[at + j] == 0.0:
                         work[i * s + j] -= factor * work[k * s + j]
     return count
-
-
-@native
-def largest(a: Reals, n: int) -> float:
-    """The largest of |a_j|, j < n."""
-    top = 0.0
-    for j in range(n):
-        top = max(top, abs(a[j]))
-    return top

@@ -36,8 +36,8 @@ from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.radau.coefficients import REAL
 from adamslite.integrators.radau.control import Control
 from adamslite.integrators.radau.corrector import round_off
-from adamslite.integrators.radau.dense_output import put_between
 from adamslite.integrators.radau.state import (
+    put_between,
     put_end,
     restore_state,
 )

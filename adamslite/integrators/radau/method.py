@@ -30,7 +30,6 @@ from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import track
 from adamslite.integrators.radau.control import ORIGIN, Control
 from adamslite.integrators.radau.corrector import correct
-from adamslite.integrators.radau.dense_output import predict, record
 from adamslite.integrators.radau.error import local_error
 from adamslite.integrators.radau.events import (
     end_at_crossing,
@@ -42,7 +41,7 @@ from adamslite.integrators.radau.events import (
     touch_gently,
 )
 from adamslite.integrators.radau.stages import keep_stages, put_stage
-from adamslite.integrators.radau.state import put_end, restore_state
+from adamslite.integrators.radau.state import predict, put_end, record, restore_state
 from adamslite.integrators.radau.step_size import choose_step, limit_step, step_factor
 from adamslite.integrators.records import note_violation
 from adamslite.integrators.stepping.control import NOBODY, RUNNING

@@ -1,5 +1,5 @@
-"""Between steps: the accepted state, steps after failures, and the end of a run: at its time, by the
-user, at a singular posture, or because steps vanish.
+"""Between steps: the accepted state, steps after failures, and the end of a run: at its time, by
+the user, at a singular posture, or because steps vanish.
 """
 
 from __future__ import annotations
