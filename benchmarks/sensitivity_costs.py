@@ -63,10 +63,10 @@ class Timed(taped.Taped):
         spent["run"].clear()
 
         def follow(system: Any, method: str) -> None:
-            found = self.directions(system, True)
+            found = self.directions(system, True, 0)
             for _ in range(TIMES):
                 for number in (1, self.count):
-                    lot = [found[0]] * number
+                    lot = [found] * number
                     _NATIVE.clear()
                     along = taped.followed(system, method, lot)
                     spent[number].append(_NATIVE[0])

@@ -57,6 +57,7 @@ from adamslite.sensitivity.transposed import (
 
 if TYPE_CHECKING:
     from adamslite.equations.system import System
+    from adamslite.sensitivity.directions import Direction
 
 GRAZES = "an event at t = {t:.6g} only just happens: its time has no derivative"
 # A guard that changes by less than this share of its terms changes by round-off.
@@ -73,6 +74,16 @@ class Derivatives:
 
     numbers: Numbers
     start: np.ndarray
+
+    def along(self, found: Direction) -> float:
+        """The derivative by a number of the deck, which changes the arrays so."""
+        numbers = self.numbers
+        total = float(self.start @ found.start + numbers.mass @ found.mass)
+        total += float(numbers.gravity @ found.gravity + numbers.inertia.ravel() @ found.inertia)
+        for k, first, count, reals in found.pieces:
+            weights = numbers.reals[k][first : first + count].ravel()
+            total += float(weights @ reals[: weights.size])
+        return total
 
 
 class Sweep(Taken):

@@ -105,16 +105,13 @@ def direction(system: System, base: Snapshot, around: dict[int, Snapshot], h: fl
     def slope(name: str) -> np.ndarray:
         return slope_around({k: getattr(each, name) for k, each in around.items()}, h)
 
-    turned = slope("attitudes") @ base.attitudes.transpose(0, 2, 1)
-    turns = 0.5 * np.stack(
-        [turned[:, i, j] - turned[:, j, i] for i, j in ((2, 1), (0, 2), (1, 0))], axis=1
-    )
+    turned = turns(slope("attitudes") @ base.attitudes.transpose(0, 2, 1))
     places, start = slope("places"), np.zeros(2 * system.n + system.ns)
     for b, body in enumerate(system.model.bodies):
         i = system.starts[b]
         start[i : i + 3] = places[b]
         if body.width == PART:
-            start[i + 3 : i + 6] = turns[b]
+            start[i + 3 : i + 6] = turned[b]
     start[system.n : 2 * system.n], start[2 * system.n :] = slope("u"), slope("s")
     found = Direction(slope("mass"), slope("inertia"), slope("gravity"), start, h / SHARE)
     found.pieces = [*_pieces(system, base, around, h)]
@@ -128,6 +125,12 @@ def _in_bytes(tables: Iterable[Any]) -> bytes:
 def slope_around(around: dict[int, Any], h: float) -> Any:
     """The derivative; what does not change has none."""
     return (8.0 * (around[1] - around[-1]) - (around[2] - around[-2])) / (12.0 * h)
+
+
+def turns(rates: np.ndarray) -> np.ndarray:
+    """The vectors (..., 3) of small rotations dR R^T (..., 3, 3), in ground axes."""
+    pairs = ((2, 1), (0, 2), (1, 0))
+    return 0.5 * np.stack([rates[..., i, j] - rates[..., j, i] for i, j in pairs], axis=-1)
 
 
 def _pieces(

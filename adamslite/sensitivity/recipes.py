@@ -1,35 +1,43 @@
 """Numbers whose way into the arrays of a model is known: their derivatives without setting it up.
 
 What a load or a value that is written takes of the text are parameters of kernels with recipes
-(:mod:`adamslite.variation.kernels`), which are differentiated; of the mass of a body its statement
-is made anew.  Neither moves the start, unless something assembles it.
+(:mod:`adamslite.variation.kernels`), which are differentiated; a body that nothing holds is made
+anew by its statement.  What else a number does, to markers, joints or an assembled start, is found
+by setting the model up with other values of it (:mod:`adamslite.sensitivity.directions`).
 """
 
 from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
+from functools import cached_property
+from itertools import groupby
+from operator import itemgetter
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from adamslite.language.traced import WRITTEN, again, places
-from adamslite.sensitivity.directions import SHARE, STENCIL, Direction, Piece, slope_around
+from adamslite.kernels.groups import LEVELS
+from adamslite.language.diagnostics import DeckError
+from adamslite.language.traced import WRITTEN, Recipe, Traced, again, places
+from adamslite.model.model import PART
+from adamslite.sensitivity.directions import SHARE, STENCIL, Direction, slope_around, turns
 from adamslite.variation.decks import variable_of
+from adamslite.variation.kernels import Refill, of_deck
 
 if TYPE_CHECKING:
-    from adamslite.deck.deck import Deck
     from adamslite.elements.part import Part
     from adamslite.equations.system import System
     from adamslite.kernels.groups import Kernels
     from adamslite.reading.numbers import Named
-    from adamslite.variation.kernels import Refill
 
-#: Statements whose numbers do not move the start.
-LOADS = frozenset("SFORCE VFORCE VTORQUE GFORCE SPRINGDAMPER BUSHING FIELD REQUEST".split())
-#: What kernels of these faces take is in no equation that the start fulfils.
-AFTERWARDS = {"loads", "output"}
+#: Statements that numbers change through reals of kernels alone.
+FORCES = frozenset(
+    "SFORCE VFORCE VTORQUE GFORCE SPRINGDAMPER BUSHING VARIABLE REQUEST FIELD NFORCE".split()
+)
+#: Statements whose numbers decide how a run goes, not what the model is.
+RUNNING = frozenset("SIMULATE INTEGRATOR OUTPUT RESULTS EQUILIBRIUM KINEMATICS SENSOR".split())
 
 
 def slope(recipe: Any, written: Mapping[int, float], at: int) -> float:
@@ -65,86 +73,142 @@ RULES: dict[Any, Callable[[list[float], list[float]], float]] = {
 }
 
 
-def written_in(deck: Deck) -> dict[int, float]:
-    """By their places in the text: the values of all numbers of a deck, as digits."""
-    variable = variable_of(deck.base or deck)
-    named = (variable.numbers.named[name.upper()] for name in deck.values)
-    given = {each.at: each.digits(deck.values[each.name]) for each in named}
-    return {**variable.written, **given}
-
-
-def alone(deck: Deck) -> set[str]:
-    """Numbers of bodies of which it was seen that no kernel and no start hangs on them."""
-    found: set[str] = (deck.base or deck).kept.setdefault(alone, set())
-    return found
-
-
 class Known:
-    """The numbers of a deck whose values were put into kernels before, and what was seen then."""
+    """The numbers of a deck whose way into the arrays of its kernels is known."""
 
     def __init__(self, kernels: Kernels) -> None:
-        deck = kernels.model.deck
+        self.kernels, deck = kernels, kernels.model.deck
         self.variable = variable_of(deck.base or deck)
-        self.refill: Refill | None = kernels.refill
-        self.alone = alone(deck)
-        self.faces = [group.face for group in kernels.groups]
-        self.written = written_in(deck)
+        if kernels.refill is None:
+            kernels.refill = Refill(kernels, self.variable)
+        self.refill: Refill = kernels.refill
+        named = (self.variable.numbers.named[name.upper()] for name in deck.values)
+        given = {each.at: each.digits(deck.values[each.name]) for each in named}
+        self.written = {**self.variable.written, **given}
+        self.settled = set().union(*(places(recipe) for _, recipe in self.refill.settled))
+        held = [group for group in kernels.groups if group.face in LEVELS]
+        self.clocked = any(group.instances.columns.signals for group in held)
+        self.tied = {
+            int(body) for group in held for each in group.instances.columns.bodies for body in each
+        }
 
-    def is_load(self, number: Named) -> bool:
-        """Whether a number is in parameters of loads and of what is written, and nowhere else."""
-        return number.statement.keyword in LOADS and self._is_verified(number)
+    def verify(self, named: list[Named]) -> None:
+        """Compare recipes of numbers with the long way, once, all together."""
+        fresh = [each for each in named if self._is_plain(each)]
+        fresh = [each for each in fresh if each.name not in self.refill.verified]
+        values = {each.name: (1.0 + SHARE) * each.value for each in fresh}
+        if not values:
+            return
+        deck = self.kernels.model.deck
+        try:
+            of_deck(self.kernels, deck.with_values({**deck.values, **values}))
+        except DeckError:
+            return
 
-    def is_mass(self, number: Named) -> bool:
-        """Whether it is the mass or the inertia of a body, and in no kernel."""
-        fields = self.variable.fields.get(number.at, [])
-        of_mass = bool(fields) and all(name in ("mass", "ip") for _, name in fields)
-        return of_mass and number.name in self.alone
+    def all(self) -> list[Named]:
+        """Every number on which equations may hang."""
+        named = self.variable.numbers.named.values()
+        return [
+            each for each in named
+            if each.value != 0.0 and each.statement.keyword not in RUNNING
+            and each.at in self.variable.fields and each.at not in self.settled
+            and self.variable.is_quick({each.name: each.value})
+        ]  # fmt: skip
 
-    def _is_verified(self, number: Named) -> bool:
-        """Whether values of it were compared with the long way, and no statement derives of it."""
-        refill, own = self.refill, (number.statement.keyword, number.statement.key)
-        if refill is None or not refill.usable or number.name not in refill.verified:
+    def is_known(self, each: Named) -> bool:
+        """Whether the way of a number is known, at least where a run starts as it is drawn."""
+        return self.is_direct(each) or (each.value != 0.0 and self.is_of_body(each, True))
+
+    def is_direct(self, each: Named) -> bool:
+        """Whether a number is known to change reals of loads and of what is written alone."""
+        return each.name in self.refill.verified and self._is_plain(each)
+
+    def _is_plain(self, each: Named) -> bool:
+        start = each.argument.start or "IC" in each.argument.keys
+        if not self.refill.usable or each.at in self.settled or start:
             return False
-        columns = refill.columns.get(number.at, set())
-        derived = any(own in each for each in refill.deriving.values())
-        settled = any(number.at in places(recipe) for _, recipe in refill.settled)
-        faces = {self.faces[k] for k, _ in columns}
-        return not derived and not settled and faces <= AFTERWARDS
+        own, fields = self.variable.numbers.deck.own, self.variable.fields.get(each.at, [])
+        columns = self.refill.columns.get(each.at, set())
+        touched = {self.kernels.groups[k].face for k, _ in columns}
+        if not {own[n].keyword for n, _ in fields} <= FORCES or touched & {*LEVELS} or not columns:
+            return False
+        if "signal" in touched and self.clocked:
+            return False
+        return not any(k in self.refill.deriving for k, _ in columns)
+
+    def is_of_body(self, each: Named, as_drawn: bool) -> bool:
+        """Whether a number changes nothing but one body, where constraints have moved nothing at
+        the start (``as_drawn``), or hold nothing.
+        """
+        model, own = self.kernels.model, each.statement
+        fields = self.variable.fields.get(each.at, [])
+        if own.keyword not in ("PART", "POINT_MASS") or len(fields) != 1:
+            return False
+        if any((own.keyword, own.key) in each for each in self.refill.deriving.values()):
+            return False
+        if self.refill.columns.get(each.at) or not self.refill.usable or self.along_others:
+            return False
+        heavy, body = fields[0][1] in ("mass", "ip"), model.body_index.get((own.keyword, own.key))
+        return body is not None and (
+            not self.tied or (as_drawn and (heavy or body not in self.tied))
+        )
+
+    @cached_property
+    def along_others(self) -> bool:
+        """Whether speeds are given along axes of other bodies."""
+        bodies = self.kernels.model.bodies
+        return any(getattr(body.statement, f, None) for body in bodies for f in ("vm", "wm"))
+
+    @cached_property
+    def uses(self) -> dict[int, list[tuple[int, int, int, Recipe]]]:
+        """By the place of a number: groups, parameters, instances and recipes with it."""
+        found: dict[int, list[tuple[int, int, int, Recipe]]] = {}
+        for (k, n), entries in self.refill.entries.items():
+            for row, recipe in entries:
+                for at in places(recipe):
+                    found.setdefault(at, []).append((k, n, row, recipe))
+        return found
 
     def load(self, system: System, number: Named, h: float) -> Direction:
         """The derivatives of the arrays by a number of a load, which changes by ``h``."""
-        found = _nothing(system, h)
-        found.pieces = [*self._pieces(system, number)]
+        found, uses = _nothing(system, h), sorted(self.uses[number.at], key=itemgetter(0))
+        for k, entries in groupby(uses, itemgetter(0)):
+            own, group = [*entries], system.kernels.groups[k]
+            rows, count = [row for _, _, row, _ in own], len(group.instances)
+            whole = group.face == "signal"
+            first, last = (0, count - 1) if whole else (min(rows), max(rows))
+            reals = system.instances.keep[2 * k + 1].size - 1
+            into = np.zeros((last - first + 1, reals // count))
+            for _, n, row, recipe in own:
+                into[row - first, n] = by_value(recipe, self.written, number)
+            found.pieces.append((k, first, len(into), np.append(into.ravel(), 0.0)))
         return found
 
-    def _pieces(self, system: System, number: Named) -> Iterator[Piece]:
-        assert self.refill is not None
-        rows: dict[int, np.ndarray] = {}
-        for k, n in self.refill.columns.get(number.at, ()):
-            count = len(system.kernels.groups[k].instances)
-            reals = system.instances.keep[2 * k + 1].size - 1
-            into = rows.setdefault(k, np.zeros((count, reals // count)))
-            for row, recipe in self.refill.entries[k, n]:
-                into[row, n] = by_value(recipe, self.written, number)
-        for k, found in sorted(rows.items()):
-            touched = np.flatnonzero(found.any(axis=1))
-            if touched.size:
-                first, last = int(touched[0]), int(touched[-1])
-                taken = found[first : last + 1].ravel()
-                yield k, first, last - first + 1, np.append(taken, 0.0)
-
-    def mass(self, system: System, number: Named, h: float) -> Direction:
-        """The same by a number of a mass, from bodies made of values ``h`` apart."""
-        own, model = number.statement, system.model
+    def body(self, system: System, number: Named, h: float) -> Direction:
+        """The same by a number of a body, from bodies made of values ``h`` apart."""
+        own, model, found = number.statement, self.kernels.model, _nothing(system, h)
+        (at, name), *_ = self.variable.fields[number.at]
         b = model.body_index[own.keyword, own.key]
-        bodies = {}
-        for k in STENCIL:
-            changed = self.variable.statements({number.name: number.value + k * h})
-            bodies[k] = model.body_of(cast("Part", next(iter(changed.values()))))
-        found = _nothing(system, h)
-        found.mass[b] = slope_around({k: each.mass for k, each in bodies.items()}, h)
-        of_bodies = {k: np.ravel(each.inertia) for k, each in bodies.items()}
-        found.inertia[9 * b : 9 * b + 9] = slope_around(of_bodies, h)
+        value = getattr(self.variable.numbers.deck.own[at], name)
+        if name == "mass" and own.keyword == "POINT_MASS" and type(value) is Traced:
+            found.mass[b] = by_value(value.recipe, self.written, number) / model.deck.ucf
+            return found
+        bodies = {
+            k: model.body_of(cast("Part", self.variable.statements({number.name: value})[at]))
+            for k, value in ((k, number.value + k * h) for k in STENCIL)
+        }
+
+        def rate(name: str) -> Any:
+            return slope_around({k: getattr(each, name) for k, each in bodies.items()}, h)
+
+        i, n = system.starts[b], system.n
+        found.mass[b], found.start[i : i + 3] = rate("mass"), rate("x")
+        found.start[n + i : n + i + 3] = rate("v")
+        if bodies[1].width == PART:
+            found.inertia[9 * b : 9 * b + 9] = np.ravel(rate("inertia"))
+            attitude = 0.5 * (bodies[1].attitude + bodies[-1].attitude)
+            found.start[i + 3 : i + 6] = turns(rate("attitude") @ attitude.T)
+            found.start[n + i + 3 : n + i + 6] = rate("w")
         return found
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
-from functools import cached_property
+from functools import cache, cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,9 +24,9 @@ from adamslite.results.results import Results
 from adamslite.sensitivity.adjoint_columns import column_slopes
 from adamslite.sensitivity.directions import SHARE, STENCIL, Direction, Snapshot, direction
 from adamslite.sensitivity.measures import Columns, asked, compared, slope
-from adamslite.sensitivity.recipes import Known, alone
+from adamslite.sensitivity.recipes import Known
 from adamslite.sensitivity.record import Sensitivities
-from adamslite.sensitivity.taped import Along, Probe, Ready, Taped, followed
+from adamslite.sensitivity.taped import Along, Probe, Ready, Taped, followed, recorded
 from adamslite.variation.decks import variable_of
 from adamslite.variation.kernels import of_deck
 
@@ -46,6 +46,7 @@ FORM = (
 )
 TABLE = "{name} is a number of a table: there is no derivative by it yet"
 SENSED = "A SENSOR ended the run: derivatives where the end itself moves are not worked out"
+NO_RUN = "derivatives are those of a dynamic analysis, and there is none"
 # A hair, as a share of the distance of the values that are taken.
 NUDGE = 1e-6
 COARSE = (
@@ -119,8 +120,38 @@ class Study:
             for name, each in found.items()
         ]
 
-    def session(self, kind: type[Session], kernels: Kernels) -> Any:
-        return kind(kernels, None, dict(self.flags), self.without, budget=self.budget)
+    def session(self, kind: type[Session], kernels: Kernels, **flags: Any) -> Any:
+        return kind(kernels, None, {**self.flags, **flags}, self.without, budget=self.budget)
+
+    def run(
+        self,
+        follow: Callable[[System, str, bool], None],
+        kernels: Kernels | None = None,
+        planar: bool = False,
+        **flags: Any,
+    ) -> Taped:
+        """A run with its tape, which ``follow(system, method, whether it starts as it is drawn)``
+        goes along.
+
+        Raises
+        ------
+        RunFailed
+            When it does not reach its end.
+        """
+        session: Taped = self.session(Taped, kernels or self.kernels, **flags)
+
+        def along(system: System, method: str) -> None:
+            if system.triggered:
+                raise UsageError(SENSED)
+            follow(system, method, not (session.assembled or session.speeds))
+
+        session.follow, session.planar = along, planar
+        session.execute(self.plan)
+        if session.outcome is not Outcome.DONE:
+            raise RunFailed(explained(session))
+        if not session.followed:
+            raise UsageError(NO_RUN)
+        return session
 
     def snapshot(self, kernels: Kernels) -> tuple[System, Snapshot]:
         """The system where the dynamic analysis begins, and its arrays.
@@ -137,52 +168,51 @@ class Study:
             return session.system, ready.snapshot
         if session.outcome is not Outcome.DONE:
             raise RunFailed(explained(session))
-        raise UsageError("derivatives are those of a dynamic analysis, and there is none")
+        raise UsageError(NO_RUN)
 
-    def directions(self, named: list[Named]) -> Callable[[System, bool], list[Direction]]:
-        """What gives derivatives of the arrays by each number, of the system and whether it starts
-        as it is drawn.
+    def directions(self, named: list[Named]) -> Callable[[System, bool, int], Direction]:
+        """What gives derivatives of the arrays by a number, of the system, whether it starts as it
+        is drawn, and the place of the number among these.
 
         What is zero, as the distance of a marker from its mass centre, is left out of equations. A
-        number that moves it away from there is put a hair beside its value first.
+        number that moves it away from there is put a hair beside its value first.  Behind an
+        equilibrium, which any number moves, the way of none is known.
 
         Raises
         ------
         UsageError
             When a number decides more than values.
         """
-        known = Known(self.kernels)
-        quick = self._quick(known, named)
-        slow = [each for each in named if each.name not in quick]
-        if slow:
-            self.put_beside(slow)
-            known, named = Known(self.kernels), self.named(each.name for each in named)
-        made: dict[str, Direction] = {}
-        if slow:
-            system, base = self.snapshot(self.kernels)
-            for each in named:
-                if each.name not in quick:
-                    made[each.name] = self.direction(system, base, each)
+        known, names = Known(self.kernels), [each.name for each in named]
+        known.verify(named)
+        settled = sum(each.keyword == "SIMULATE" for each in self.plan) > 1
+        quick = {each.name for each in named if not settled and known.is_known(each)}
+        if len(quick) < len(names):
+            self.put_beside([each for each in named if each.name not in quick])
+            known, named = Known(self.kernels), self.named(names)
+            known.verify(named)
 
-        def found(system: System, as_drawn: bool) -> list[Direction]:
-            for each in named:
-                if each.name in quick and known.is_load(each):
-                    made[each.name] = known.load(system, each, self.step(each))
-                elif each.name in quick and as_drawn:
-                    made[each.name] = known.mass(system, each, self.step(each))
-                elif each.name not in made:
-                    made[each.name] = self.direction(*self.snapshot(self.kernels), each)
-            return [made[each.name] for each in named]
+        @cache
+        def by_setting_up(k: int) -> Direction:
+            return self.direction(*base(), named[k])
+
+        @cache
+        def base() -> tuple[System, Snapshot]:
+            return self.snapshot(self.kernels)
+
+        for k, name in enumerate(names):
+            if name not in quick:
+                by_setting_up(k)
+
+        def found(system: System, as_drawn: bool, k: int) -> Direction:
+            each = named[k]
+            if each.name in quick and known.is_direct(each):
+                return known.load(system, each, self.step(each))
+            if each.name in quick and known.is_of_body(each, as_drawn):
+                return known.body(system, each, self.step(each))
+            return by_setting_up(k)
 
         return found
-
-    def _quick(self, known: Known, named: list[Named]) -> set[str]:
-        """Numbers whose way into arrays is known; behind an equilibrium, which any number moves,
-        there are none.
-        """
-        if sum(each.keyword == "SIMULATE" for each in self.plan) > 1:
-            return set()
-        return {each.name for each in named if known.is_load(each) or known.is_mass(each)}
 
     def put_beside(self, named: list[Named]) -> None:
         """Put a hair beside its value what has another form there."""
@@ -209,10 +239,7 @@ class Study:
             raise UsageError(FORM.format(name=number.name))
         if any(one.tables != base.tables for one in around.values()):
             raise UsageError(TABLE.format(name=number.name))
-        found = direction(system, base, around, self.step(number))
-        if not found.pieces and not found.start.any():
-            alone(self.deck).add(number.name)
-        return found
+        return direction(system, base, around, self.step(number))
 
     def _around(self, number: Named) -> dict[int, Snapshot]:
         """Snapshots beside the value of a number."""
@@ -231,13 +258,9 @@ class Study:
 
     def step(self, number: Named) -> float:
         """Distance of the values: a share of it, or of the numbers beside a zero."""
-        scale = self._scale(number)
+        scale = self.scales[number.name.partition("[")[0]] or 1.0
         size = abs(number.value)
         return SHARE * (size if size > NUDGE * scale else scale)
-
-    def _scale(self, number: Named) -> float:
-        """What a zero is small against: the numbers beside it."""
-        return self.scales[number.name.partition("[")[0]] or 1.0
 
     def compared(
         self,
@@ -251,18 +274,16 @@ class Study:
         if not several or found.stopped:
             return found
         error = min(session.chosen.settings.error, TIGHT)
-        flags = {**self.flags, "method": session.chosen.settings.method, "error": error}
+        method = session.chosen.settings.method
 
         def run(values: Mapping[str, float]) -> Columns:
             made: list[Columns] = []
+
+            def follow(system: System, *_: Any) -> None:
+                made.append((system.times.copy(), *columns(system, recorded(system))))
+
             kernels = of_deck(self.kernels, self.deck.with_values(dict(values)))
-            other = Taped(kernels, None, flags, self.without, budget=self.budget)
-            other.follow = lambda system, _: made.append(
-                (system.times.copy(), *columns(system, recorded(system)))
-            )
-            other.execute(self.plan)
-            if other.outcome is not Outcome.DONE:
-                raise RunFailed(explained(other))
+            self.run(follow, kernels, method=method, error=error)
             return made[0]
 
         notes = [COUPLED] if coupled else []
@@ -274,6 +295,22 @@ class Study:
             notes.append(FAILED.format(fault=fault))
         notes = [each for each in (found.notes.get("events"), *notes) if each]
         return replace(found, notes={**found.notes, "events": "; ".join(notes)})
+
+    def gathered(
+        self, named: list[Named], session: Taped, made: Mapping[str, Any]
+    ) -> Sensitivities:
+        """The derivatives of a run by numbers."""
+        time, measures = made["time"], made["measures"]
+        results = Results(
+            time=time, names=made["names"], values=np.ascontiguousarray(made["values"]),
+            meta={"deck": self.deck.title}, outcome=session.outcome, message="", summary={},
+        )  # fmt: skip
+        return Sensitivities(
+            tuple(n.name for n in named), np.array([n.value for n in named]), results,
+            made["curves"], tuple(map(str, measures)),
+            np.array([m.of(time, results[m.channel]) for m in measures]), made["gradient"],
+            made["notes"] | session.notes, made["errors"], made.get("stopped", ""),
+        )  # fmt: skip
 
     @cached_property
     def scales(self) -> dict[str, float]:
@@ -311,12 +348,6 @@ def noted(along: Along | None, errors: Mapping[str, float]) -> dict[str, str]:
     return notes | ({"events": GRAZED} if along and along.grazed else {})
 
 
-def recorded(system: System) -> np.ndarray:
-    """The record of a run (nt, nw + n_out)."""
-    size = system.nw + system.sizes.n_out
-    return system.record[: len(system.times) * size].reshape(len(system.times), size)
-
-
 def _worked_out(
     study: Study, by: Iterable[str], of: Iterable[str]
 ) -> tuple[Sensitivities, list[Named], Taped, Along | None]:
@@ -324,64 +355,39 @@ def _worked_out(
     if not named:
         raise UsageError("derivatives by what? --by NAME; `adamslite names DECK` lists numbers")
     directions = study.directions(named)
-    session = study.session(Taped, study.kernels)
     made: dict[str, Any] = {}
 
-    def follow(system: System, method: str) -> None:
-        if system.triggered:
-            raise UsageError(SENSED)
-        record = recorded(system)
+    def follow(system: System, method: str, as_drawn: bool) -> None:
+        time, record = system.times.copy(), recorded(system)
         names, values = columns(system, record)
         measures, kept = asked(of, names) if of else ([], [*range(len(names))])
         lot = max(1, MOST_HELD // max(record.size, 1))
         lot = lot if study.budget.cpu is None else min(lot, LIMITED)
-        found = directions(system, not (session.assembled or session.speeds))
-        curves: list[np.ndarray] = []
-        errors: list[float] = []
+        found = [directions(system, as_drawn, k) for k in range(len(named))]
+        curves = np.full((len(found), len(record), len(kept)), np.nan)
+        errors = np.full(len(found), np.nan)
         for at in range(0, len(found), lot):
+            some = slice(at, at + lot)
             try:
-                along = followed(system, method, found[at : at + lot], study.budget)
+                along = made["along"] = followed(system, method, found[some], study.budget)
             except Overspent:
-                curves += [np.full((len(record), len(kept)), np.nan)] * (len(found) - at)
-                errors += [np.nan] * (len(found) - at)
                 made["stopped"] = Outcome.CPU_LIMIT.sentence
                 break
-            curves += [column_slopes(system, record, each)[:, kept] for each in along.record]
-            errors += along.errors.tolist()
-            made["along"] = along
-        made.update(names=names, values=values, kept=kept, measures=measures, curves=curves)
-        made["errors"] = np.array(errors)
-        made["time"] = system.times.copy()
+            curves[some] = [column_slopes(system, record, each)[:, kept] for each in along.record]
+            errors[some] = along.errors
+        at_column = {names[k]: (values[:, k], curves[:, :, n]) for n, k in enumerate(kept)}
+        gradient = np.full((len(measures), len(found)), np.nan)
+        for m, measure in enumerate(measures):
+            own, slopes = at_column[measure.channel]
+            gradient[m] = [slope(measure, time, own, each) for each in slopes]
         pairs = zip(named, found, strict=True)
-        made["still"] = [each.name for each, one in pairs if not one.moves(system)]
+        still = [each.name for each, one in pairs if not one.moves(system)]
+        off = dict(zip((each.name for each in named), errors, strict=True))
+        made.update(
+            time=time, names=tuple(names[k] for k in kept), values=values[:, kept], curves=curves,
+            measures=measures, gradient=gradient, errors=errors,
+            notes=noted(made.get("along"), off) | dict.fromkeys(still, UNUSED),
+        )  # fmt: skip
 
-    session.follow, session.planar = follow, PLANAR
-    session.execute(study.plan)
-    if session.outcome is not Outcome.DONE:
-        raise RunFailed(explained(session))
-    return _gathered(study, named, session, made), named, session, made.get("along")
-
-
-def _gathered(
-    study: Study, named: list[Named], session: Any, made: dict[str, Any]
-) -> Sensitivities:
-    kept, names, time = made["kept"], made["names"], made["time"]
-    chosen = tuple(names[k] for k in kept)
-    results = Results(
-        time=time, names=chosen, values=np.ascontiguousarray(made["values"][:, kept]),
-        meta={"deck": study.deck.title}, outcome=session.outcome, message="", summary={},
-    )  # fmt: skip
-    curves, measures = np.array(made["curves"]), made["measures"]
-    at = {name: k for k, name in enumerate(chosen)}
-    gradient = np.array([
-        [slope(m, time, results[m.channel], curve[:, at[m.channel]]) for curve in curves]
-        for m in measures
-    ]).reshape(len(measures), len(named))  # fmt: skip
-    off = zip((n.name for n in named), made["errors"], strict=True)
-    notes = noted(made.get("along"), dict(off)) | dict.fromkeys(made["still"], UNUSED)
-    notes |= session.notes
-    return Sensitivities(
-        tuple(n.name for n in named), np.array([n.value for n in named]), results, curves,
-        tuple(map(str, measures)), np.array([m.of(time, results[m.channel]) for m in measures]),
-        gradient, notes, made["errors"], made.get("stopped", ""),
-    )  # fmt: skip
+    session = study.run(follow, planar=PLANAR)
+    return study.gathered(named, session, made), named, session, made.get("along")

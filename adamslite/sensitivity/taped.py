@@ -244,6 +244,12 @@ def _kept(system: System, method: str) -> tuple[int, int, int]:
     return KEPT_ROWS * w, Y_ROWS * w, KEPT_Z * z
 
 
+def recorded(system: System) -> np.ndarray:
+    """The record of a run (nt, nw + n_out)."""
+    size = system.nw + system.sizes.n_out
+    return system.record[: len(system.times) * size].reshape(len(system.times), size)
+
+
 def followed(
     system: System, method: str, found: Iterable[Direction], budget: Budget | None = None
 ) -> Along:
