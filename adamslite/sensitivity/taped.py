@@ -96,22 +96,6 @@ class Ready(Exception):
         self.snapshot = snapshot
 
 
-class Probe(Session):
-    """Comes to where a dynamic analysis begins, and says what it begins with."""
-
-    def _integrated(
-        self, system: System, times: np.ndarray, apart: float, wanted: np.ndarray
-    ) -> Outcome:
-        raise Ready(Snapshot.of(system))
-
-    def _take(self, choice: MethodChoice) -> None:
-        super()._take(allowed(choice, "method" in self.flags))
-
-    def is_determined(self, times: np.ndarray) -> bool:
-        """No: derivatives follow the steps of a run."""
-        return False
-
-
 class Taped(Session):
     """Follows the tape of a run with ``follow(system, method)``; ``planar``: in the plane of the
     motion, if it has one, where that finds out what leaves it; ``refused``: the method of the deck
@@ -129,7 +113,7 @@ class Taped(Session):
         super()._take(taken)
 
     def is_determined(self, times: np.ndarray) -> bool:
-        """No: there would be no tape."""
+        """No: derivatives follow the steps of a run."""
         return False
 
     @property
@@ -184,6 +168,15 @@ class Taped(Session):
             _spare[:] = [system.tape.data]
         system.tape.data = np.zeros(1)
         return outcome
+
+
+class Probe(Taped):
+    """Comes to where a dynamic analysis begins, and says what it begins with."""
+
+    def _integrated(
+        self, system: System, times: np.ndarray, apart: float, wanted: np.ndarray
+    ) -> Outcome:
+        raise Ready(Snapshot.of(system))
 
 
 def allowed(choice: MethodChoice, asked: bool) -> MethodChoice:
