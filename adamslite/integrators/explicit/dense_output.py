@@ -34,7 +34,7 @@ from adamslite.integrators.explicit.stages import (
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.records import has_room, write_record
 from adamslite.integrators.stepping.output import WITHIN
-from adamslite.native.translate import Reals, copy, native
+from adamslite.native.translate import Reals, copy, inline, native
 
 # An error e of the polynomial leaves a defect of about e times its order, or e times what the
 # stiffest component changes in a step, which is as much at the bound of stability.
@@ -111,7 +111,7 @@ def late_stages(P: Problem, L: Plan, C: Control, h: float) -> bool:
 def interpolated(P: Problem, C: Control, h: float, x: float, y: Reals) -> None:
     """The state at t + x h: order 7."""
     if C.quick:
-        quick_interpolated(P, C, h, x, y, False)
+        quick_interpolated(P, C, h, x, y)
         return
     w, z = C.size, 1.0 - x
     copy(y, P.history[OLD * w :], w)
@@ -126,7 +126,7 @@ def interpolated(P: Problem, C: Control, h: float, x: float, y: Reals) -> None:
 def slope(P: Problem, C: Control, h: float, x: float, y: Reals) -> None:
     """h times the rate of the interpolation at t + x h."""
     if C.quick:
-        quick_interpolated(P, C, h, x, y, True)
+        quick_slope(P, C, h, x, y)
         return
     w, z = C.size, 1.0 - x
     b, c = z - x, 2.0 * x * z - x * x
@@ -141,6 +141,7 @@ def slope(P: Problem, C: Control, h: float, x: float, y: Reals) -> None:
 
 
 @native
+@inline
 def add_cubic(P: Problem, C: Control, h: float, a: float, b: float, c: float, y: Reals) -> None:
     """Add the cubic through both ends of the step, or its slope: a, b and c are x, x (1 - x) and
     x^2 (1 - x), or their slopes.
@@ -156,25 +157,63 @@ def add_cubic(P: Problem, C: Control, h: float, a: float, b: float, c: float, y:
 
 
 @native
-def quick_interpolated(P: Problem, C: Control, h: float, x: float, y: Reals, rates: bool) -> None:
-    """q and u at t + x h from the polynomial p of order 5 through both ends, p and p'/h; or h times
-    the ``rates`` of u alone.
-
-    p covers ``way`` from x = 0 to 1, with p' = v0 and v1, p''/2 = a0 and a1 there.
+@inline
+def third(way: float, v0: float, v1: float, a0: float, a1: float) -> float:
+    """Coefficient of x^3 in the polynomial p that covers ``way`` from x = 0 to 1, with p' = v0 and
+    v1, p''/2 = a0 and a1 there; those of lower powers are v0 and a0.
     """
-    n, w, a, b = C.width, C.size, P.history, P.history[K_NEW * C.width :]
-    old, new = P.history[OLD * w :], P.history[NEXT_STATE * w :]
+    return 10.0 * way - 6.0 * v0 - 4.0 * v1 - 3.0 * a0 + a1
+
+
+@native
+@inline
+def fourth(way: float, v0: float, v1: float, a0: float, a1: float) -> float:
+    """The same of x^4."""
+    return 7.0 * v1 + 8.0 * v0 + 3.0 * a0 - 2.0 * a1 - 15.0 * way
+
+
+@native
+@inline
+def fifth(way: float, v0: float, v1: float, a0: float, a1: float) -> float:
+    """The same of x^5."""
+    return 6.0 * way - 3.0 * (v0 + v1) - a0 + a1
+
+
+@native
+def quick_interpolated(P: Problem, C: Control, h: float, x: float, y: Reals) -> None:
+    """q and u at t + x h from the polynomial of order 5 through both ends: p and p'/h."""
+    n, w = C.width, C.size
+    a, b, old, new = (
+        P.history,
+        P.history[K_NEW * n :],
+        P.history[OLD * w :],
+        P.history[NEXT_STATE * w :],
+    )
     for i in range(n):
         way, v0, v1 = new[i] - old[i], h * old[n + i], h * new[n + i]
         a0, a1 = 0.5 * h * h * a[i], 0.5 * h * h * b[i]
-        c3 = 10.0 * way - 6.0 * v0 - 4.0 * v1 - 3.0 * a0 + a1
-        c4 = 7.0 * v1 + 8.0 * v0 + 3.0 * a0 - 2.0 * a1 - 15.0 * way
-        c5 = 6.0 * way - 3.0 * (v0 + v1) - a0 + a1
-        if rates:
-            y[n + i] = (2.0 * a0 + x * (6.0 * c3 + x * (12.0 * c4 + x * 20.0 * c5))) / h
-        else:
-            y[i] = old[i] + x * (v0 + x * (a0 + x * (c3 + x * (c4 + x * c5))))
-            y[n + i] = (v0 + x * (2.0 * a0 + x * (3.0 * c3 + x * (4.0 * c4 + x * 5.0 * c5)))) / h
+        c3, c4 = third(way, v0, v1, a0, a1), fourth(way, v0, v1, a0, a1)
+        c5 = fifth(way, v0, v1, a0, a1)
+        y[i] = old[i] + x * (v0 + x * (a0 + x * (c3 + x * (c4 + x * c5))))
+        y[n + i] = (v0 + x * (2.0 * a0 + x * (3.0 * c3 + x * (4.0 * c4 + x * 5.0 * c5)))) / h
+
+
+@native
+def quick_slope(P: Problem, C: Control, h: float, x: float, y: Reals) -> None:
+    """h times the rate of u of :func:`quick_interpolated`."""
+    n, w = C.width, C.size
+    a, b, old, new = (
+        P.history,
+        P.history[K_NEW * n :],
+        P.history[OLD * w :],
+        P.history[NEXT_STATE * w :],
+    )
+    for i in range(n):
+        way, v0, v1 = new[i] - old[i], h * old[n + i], h * new[n + i]
+        a0, a1 = 0.5 * h * h * a[i], 0.5 * h * h * b[i]
+        c3, c4 = third(way, v0, v1, a0, a1), fourth(way, v0, v1, a0, a1)
+        c5 = fifth(way, v0, v1, a0, a1)
+        y[n + i] = (2.0 * a0 + x * (6.0 * c3 + x * (12.0 * c4 + x * 20.0 * c5))) / h
 
 
 @native
