@@ -21,7 +21,7 @@ from adamslite.integrators.linalg.norms import exceeds
 from adamslite.integrators.linalg.plan import HUGE, TINY, Plan
 from adamslite.integrators.motion_equations import PART, jacobian, put_pose, residual, spread
 from adamslite.integrators.newton import apply_increment
-from adamslite.native.translate import native, rare
+from adamslite.native.translate import copy, native, rare
 
 GROWTH, UPHILL = 1.6, 4.0
 # An equilibrium is far from the start beyond this share of the model, or this turn [rad].
@@ -122,8 +122,7 @@ def noted(P: Problem, L: Plan) -> int:
 @native
 def keep_start(P: Problem) -> None:
     """Remember the posture the search begins with."""
-    for i in range(P.q.size):
-        P.history[i] = P.q[i]
+    copy(P.history, P.q, P.q.size)
     for i in range(P.base.size):
         P.history[P.q.size + i] = P.base[i]
 
@@ -131,8 +130,7 @@ def keep_start(P: Problem) -> None:
 @native
 def back_to_start(P: Problem) -> None:
     """The posture the search began with."""
-    for i in range(P.q.size):
-        P.q[i] = P.history[i]
+    copy(P.q, P.history, P.q.size)
     for i in range(P.base.size):
         P.base[i] = P.history[P.q.size + i]
 

@@ -12,7 +12,7 @@ from adamslite.integrators.contract import (
     Problem,
 )
 from adamslite.integrators.motion_equations import run_groups
-from adamslite.native.translate import native
+from adamslite.native.translate import copy, native
 
 # A redundant row is as exact as the deck, whose lengths may have four digits, and as the rows it
 # follows from: within some errors of positions.
@@ -34,8 +34,7 @@ def write_record(P: Problem, row: int) -> None:
     o = (row - P.block.first) * (nw + n_out)
     P.W[STEP_AT], P.W[ORDER_AT] = P.report.h, float(P.report.order)
     P.W[JACOBIANS_AT], P.W[RESIDUALS_AT] = float(P.count.jacobians), float(P.count.residuals)
-    for i in range(nw):
-        P.record[o + i] = P.W[i]
+    copy(P.record[o:], P.W, nw)
     out = P.record[o + nw :]
     for i in range(n_out):
         out[i] = 0.0

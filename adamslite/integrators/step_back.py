@@ -118,8 +118,7 @@ def keep_audit(P: Problem) -> None:
     """Remember the balance before steps that may have to be taken back."""
     if P.audit.on:
         P.audit.before[:] = P.audit.now
-        for k in range(P.W.size):
-            P.audit.previous_before[k] = P.audit.previous[k]
+        copy(P.audit.previous_before, P.audit.previous, P.W.size)
 
 
 @native
@@ -127,5 +126,4 @@ def bring_audit_back(P: Problem) -> None:
     """What :func:`keep_audit` kept."""
     if P.audit.on:
         P.audit.now[:] = P.audit.before
-        for k in range(P.W.size):
-            P.audit.previous[k] = P.audit.previous_before[k]
+        copy(P.audit.previous, P.audit.previous_before, P.W.size)

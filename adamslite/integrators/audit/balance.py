@@ -19,7 +19,7 @@ from adamslite.integrators.audit.work import MOST_PANELS, power_at, work_on_pane
 from adamslite.integrators.contract import STORED_ENERGY, Problem
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import PART, rotated_inertia, run_groups
-from adamslite.native.translate import native, rare, seldom
+from adamslite.native.translate import copy, native, rare, seldom
 
 
 @native
@@ -37,8 +37,7 @@ def add_step(P: Problem, L: Plan, t: float) -> None:
         tape_step(P, t)
         return
     A, old, new = P.audit.now, P.audit.previous, P.audit.present
-    for k in range(P.W.size):
-        new[k] = P.W[k]
+    copy(new, P.W, P.W.size)
     for k in range(P.sizes.nw, P.W.size):
         P.W[k] = 0.0
     weight = lifted(P)
@@ -85,8 +84,7 @@ def audit_from(P: Problem, t: float) -> None:
     if P.tape.width > 0:
         tape_event(P, t)
         return
-    for k in range(P.W.size):
-        P.audit.previous[k] = P.W[k]
+    copy(P.audit.previous, P.W, P.W.size)
     P.audit.now.t = t
     take_stock(P)
 
@@ -94,8 +92,7 @@ def audit_from(P: Problem, t: float) -> None:
 @native
 def keep_matrix(P: Problem) -> None:
     """Remember the acceleration matrix and the counts: an audit changes nothing."""
-    for k in range(P.LA.size):
-        P.audit.matrix[k] = P.LA[k]
+    copy(P.audit.matrix, P.LA, P.LA.size)
     for k in range(P.pivots_a.size):
         P.audit.pivots[k] = P.pivots_a[k]
     P.uncounted[:] = P.count
@@ -104,8 +101,7 @@ def keep_matrix(P: Problem) -> None:
 @native
 def bring_matrix_back(P: Problem) -> None:
     """What :func:`keep_matrix` kept."""
-    for k in range(P.LA.size):
-        P.LA[k] = P.audit.matrix[k]
+    copy(P.LA, P.audit.matrix, P.LA.size)
     for k in range(P.pivots_a.size):
         P.pivots_a[k] = P.audit.pivots[k]
     P.count[:] = P.uncounted

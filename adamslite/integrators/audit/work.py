@@ -20,7 +20,7 @@ from adamslite.integrators.contract import ELASTIC, LOADS, REACTIONS, Problem
 from adamslite.integrators.event_rows import NARROW, POLE, ROOT, STRICT, WEAK, ZONE
 from adamslite.integrators.linalg.plan import TINY, Plan
 from adamslite.integrators.motion_equations import CLOCK, PART, WATCH, guard_values, run_groups
-from adamslite.native.translate import Reals, native
+from adamslite.native.translate import Reals, copy, native
 
 # Nodes and weights of Gauss's formula on (-1, 1), and weights of the formula on three of them.
 FAR, NEAR = 0.9061798459386640, 0.5384693101056831
@@ -89,8 +89,7 @@ def look_at_guards(P: Problem, row: int) -> None:
     first, count = P.sizes.nw, P.guard.size - P.sizes.nw
     kept = P.audit.points[POINTS + row * count :]
     guard_values(P, CLOCK)
-    for k in range(count):
-        kept[k] = P.guard[first + k]
+    copy(kept, P.guard[first:], count)
     guard_values(P, WATCH)
     for k in range(count):
         kept[k] += P.guard[first + k]

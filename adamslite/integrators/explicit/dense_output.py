@@ -82,8 +82,7 @@ def step_to(P: Problem, L: Plan, C: Control, t: float, h: float) -> bool:
     w = C.size
     K, whole = P.history, C.h
     new, y = K[NEXT_STATE * w :], K[BETWEEN * w :]
-    for i in range(w):
-        y[i] = new[i]
+    copy(y, new, w)
     C.h = h
     good = stages(P, L, C, h)
     C.h = whole

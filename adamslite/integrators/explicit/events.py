@@ -27,7 +27,7 @@ from adamslite.integrators.explicit.stages import exact_rates, restore_state
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.stepping.control import RUNNING
 from adamslite.integrators.stepping.outcome import keep_solution
-from adamslite.native.translate import native, seldom
+from adamslite.native.translate import copy, native, seldom
 
 
 @native
@@ -89,8 +89,7 @@ def put_cubic(P: Problem, C: Control) -> None:
         a[i] = P.ra[i] + x * (P.a[i] - P.ra[i] + (1.0 - x) * bend)
     for k in range(first):
         z[k] = P.rz[k] + x * (P.z[k] - P.rz[k])
-    for k in range(ns):
-        z[first + k] = y[2 * n + k]
+    copy(z[first:], y[2 * n :], ns)
     put_state(P, C.t + x * h, y, y[n:], a, z, P.rd)
 
 

@@ -86,7 +86,7 @@ from adamslite.integrators.stepping.outcome import (
     passed_singularity,
 )
 from adamslite.integrators.unconstrained import invert_inertia, is_free, mass_tables
-from adamslite.native.translate import Reals, native, rare
+from adamslite.native.translate import Reals, copy, native, rare
 
 ORDER, QUICK_ORDER = 8, 4
 
@@ -177,8 +177,7 @@ def start_state(P: Problem, C: Control) -> None:
         return
     for i in range(n):
         y[i], y[n + i] = P.q[i], P.u[i]
-    for i in range(P.sizes.ns):
-        y[2 * n + i] = P.z[first + i]
+    copy(y[2 * n :], P.z[first:], P.sizes.ns)
 
 
 @native
@@ -300,8 +299,7 @@ def move_on(P: Problem, C: Control, t: float, recorded: bool) -> None:
     """The end of the step is the accepted state, its last stage the first of the next."""
     K = P.history
     C.t = t
-    for i in range(C.size):
-        K[OLD * C.size + i] = K[NEXT_STATE * C.size + i]
+    copy(K[OLD * C.size :], K[NEXT_STATE * C.size :], C.size)
     for i in range(C.width):
         K[i] = K[K_NEW * C.width + i]
     if recorded or not C.lazy:

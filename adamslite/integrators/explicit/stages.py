@@ -39,7 +39,7 @@ from adamslite.integrators.projection import project
 from adamslite.integrators.stepping.outcome import count_from_here
 from adamslite.integrators.stepping.output import WITHIN
 from adamslite.integrators.unconstrained import free_accelerations, mass_accelerations
-from adamslite.native.translate import Alone, Reals, native
+from adamslite.native.translate import Alone, Reals, copy, native
 
 
 @native
@@ -55,8 +55,7 @@ def combine(P: Problem, C: Control, row: int, w: int, h: float, x: Reals, y: Rea
         )  # fmt: skip
         add_combined(P, C, row, 4, w, h, y)
     else:
-        for i in range(w):
-            y[i] = x[i]
+        copy(y, x, w)
         add_combined(P, C, row, 0, w, h, y)
 
 
@@ -131,8 +130,7 @@ def rates_at(P: Problem, L: Plan, C: Control, t: float, y: Reals, k: Reals) -> b
         good = free_accelerations(P, t, y, y[n:], inverse, k[n:])
         vector_rates(P, y, y[n:], k)
         return good
-    for i in range(P.sizes.ns):
-        P.z[first + i] = y[2 * n + i]
+    copy(P.z[first:], y[2 * n :], P.sizes.ns)
     # Once the matrix of the step's start was too old for a stage, each of the rest gets its own.
     before = P.count.factorizations
     if C.stale:
@@ -150,8 +148,7 @@ def keep_rates(P: Problem, y: Reals, k: Reals) -> None:
     """k = (T^-1 u, a, s') from what was solved for."""
     n = P.sizes.n
     vector_rates(P, y, y[n:], k)
-    for i in range(n):
-        k[n + i] = P.a[i]
+    copy(k[n:], P.a, n)
     for i in range(P.sizes.ns):
         k[2 * n + i] = P.rd[i]
 
@@ -166,8 +163,7 @@ def exact_rates(P: Problem, L: Plan, C: Control, t: float, y: Reals, k: Reals) -
         good = rates_at(P, L, C, t, y, k)
         put_free_state(P, C, t, y, k)
         return good
-    for i in range(P.sizes.ns):
-        P.z[first + i] = y[2 * n + i]
+    copy(P.z[first:], y[2 * n :], P.sizes.ns)
     put_state(P, t, y, y[n:], P.a, P.z, P.rd)
     good = factor_accelerations(P, L)
     if good and P.sizes.m > 0:
@@ -205,8 +201,7 @@ def put_rates(P: Problem, C: Control, k: Reals) -> None:
         from_lanes(P, C.lane, k, P.a)
     else:
         first = C.width - P.sizes.n
-        for i in range(P.sizes.n):
-            P.a[i] = k[first + i]
+        copy(P.a, k[first:], P.sizes.n)
 
 
 @native
@@ -242,8 +237,7 @@ def restore_state(P: Problem, C: Control) -> None:
     if C.kind == LANES:
         from_lanes(P, C.lane, P.history, P.a)
     else:
-        for i in range(n):
-            P.a[i] = P.ra[i]
+        copy(P.a, P.ra, n)
     for i in range(first):
         P.z[i] = P.rz[i]
     for i in range(P.sizes.ns):

@@ -12,7 +12,7 @@ from adamslite.integrators.hht.control import Control
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import vector_rates, velocities
 from adamslite.integrators.stepping.output import is_due, is_next, record_next
-from adamslite.native.translate import Reals, native
+from adamslite.native.translate import Reals, copy, native
 
 
 @native
@@ -25,8 +25,7 @@ def record(P: Problem, L: Plan, C: Control) -> bool:
         return True
     h, end, y, good = C.h, P.trial[0:], P.trial[2 * n + ns :], True
     if not C.open:
-        for k in range(ns):
-            end[2 * n + k] = P.z[first + k]
+        copy(end[2 * n :], P.z[first:], ns)
         vector_rates(P, P.q, P.u, end[n:])
     while good and is_next(P, C):
         between(P, h, min(1.0, 1.0 + (P.times[C.row] - C.t) / h), end, y)
@@ -36,8 +35,7 @@ def record(P: Problem, L: Plan, C: Control) -> bool:
     for k in range(ns):
         P.rd[k] = P.history[3 * n + ns + k]
         P.z[first + k] = end[2 * n + k]
-    for k in range(first):
-        P.z[k] = P.rz[k]
+    copy(P.z, P.rz, first)
     put_state(P, C.t, P.q, P.u, P.ra, P.z, P.rd)
     return good
 

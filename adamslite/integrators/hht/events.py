@@ -22,7 +22,7 @@ from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import vector_rates
 from adamslite.integrators.stepping.control import RUNNING
 from adamslite.integrators.stepping.outcome import keep_solution, note_signature
-from adamslite.native.translate import native, seldom
+from adamslite.native.translate import copy, native, seldom
 
 # The first step behind an event: where its estimated error is this share of ERROR.
 CAREFUL = 0.02
@@ -105,8 +105,7 @@ def pass_on(P: Problem, L: Plan, C: Control) -> int:
 def take_accelerations(P: Problem) -> None:
     """Accelerations, multipliers and rates of the states in place are the accepted ones."""
     n, ns = P.sizes.n, P.sizes.ns
-    for k in range(ns):
-        P.history[3 * n + ns + k] = P.rd[k]
+    copy(P.history[3 * n + ns :], P.rd, ns)
     keep_solution(P)
 
 

@@ -14,7 +14,7 @@ from adamslite.integrators.motion_equations import (
     put_scalars,
     put_time,
 )
-from adamslite.native.translate import native
+from adamslite.native.translate import copy, native
 
 
 @native
@@ -44,8 +44,7 @@ def predict(P: Problem, C: Control) -> None:
     for body in range(P.sizes.nb):
         if P.body[body].width == PART:
             turn_from_start(P, C, P.body[body].first)
-    for k in range(first):
-        P.z[k] = P.rz[k]
+    copy(P.z, P.rz, first)
     for k in range(ns):
         o = 3 * n + k
         rate = D[o + ns]

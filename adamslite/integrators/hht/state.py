@@ -10,15 +10,14 @@ from adamslite.integrators.accelerations import put_state
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.hht.control import Control
 from adamslite.integrators.stepping.outcome import count_from_here, keep_solution
-from adamslite.native.translate import native, seldom
+from adamslite.native.translate import copy, native, seldom
 
 
 @native
 def start_values(P: Problem) -> None:
     """The accelerations in place are the first: b = a."""
     D, n, ns = P.history, P.sizes.n, P.sizes.ns
-    for i in range(n):
-        D[2 * n + i] = P.a[i]
+    copy(D[2 * n :], P.a, n)
     for k in range(ns):
         for row in range(1, 4):
             D[3 * n + row * ns + k] = P.rd[k]
@@ -47,8 +46,7 @@ def start_from_here(P: Problem) -> None:
     count_from_here(P)
     for i in range(n):
         D[i], D[n + i] = P.q[i], P.u[i]
-    for k in range(P.sizes.ns):
-        D[3 * n + k] = P.z[first + k]
+    copy(D[3 * n :], P.z[first:], P.sizes.ns)
 
 
 @native
@@ -58,8 +56,7 @@ def restore_state(P: Problem, C: Control) -> None:
     D, n, ns, first = P.history, P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     for i in range(n):
         P.q[i], P.u[i], P.a[i] = D[i], D[n + i], P.ra[i]
-    for k in range(first):
-        P.z[k] = P.rz[k]
+    copy(P.z, P.rz, first)
     for k in range(ns):
         P.z[first + k], P.rd[k] = D[3 * n + k], D[3 * n + ns + k]
     put_state(P, C.t, P.q, P.u, P.a, P.z, P.rd)

@@ -9,7 +9,7 @@ from adamslite.integrators.implicit.formulation import is_stabilised
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import vector_rates
 from adamslite.integrators.stepping.control import StepControl
-from adamslite.native.translate import native, rare
+from adamslite.native.translate import copy, native, rare
 
 # Fixed steps begin with this part of the step, because order 1 starts.
 START_PARTS = 1024.0
@@ -125,12 +125,10 @@ def jerk(P: Problem, L: Plan, t: float, ahead: float) -> float:
             top = max(top, abs(P.a[i] - P.ra[i]) / max(1.0, abs(P.u[i])))
         for k in range(ns):
             top = max(top, abs(P.rd[k] - rates[k]) / max(1.0, abs(P.rz[first + k])))
-    for i in range(n):
-        P.a[i] = P.ra[i]
+    copy(P.a, P.ra, n)
     for k in range(first + ns):
         P.z[k] = P.rz[k]
-    for k in range(ns):
-        P.rd[k] = rates[k]
+    copy(P.rd, rates, ns)
     return top / ahead
 
 

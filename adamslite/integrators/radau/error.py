@@ -26,7 +26,7 @@ from adamslite.integrators.newton import apply_increment
 from adamslite.integrators.radau.coefficients import REAL, WEIGHT
 from adamslite.integrators.radau.control import ORIGIN, Control
 from adamslite.integrators.radau.stages import put_counted
-from adamslite.native.translate import Reals, native
+from adamslite.native.translate import Reals, copy, native
 
 
 @native
@@ -35,8 +35,7 @@ def local_error(P: Problem, L: Plan, C: Control) -> float:
     n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     w = 2 * n + ns
     base, error = P.trial[0:], P.trial[w:]
-    for i in range(w):
-        base[i] = P.history[i]
+    copy(base, P.history, w)
     for k in range(first):
         P.z[k] = P.rz[k]
     norm = newton_error(P, L, C, base, error)
@@ -62,8 +61,7 @@ def newton_error(P: Problem, L: Plan, C: Control, base: Reals, error: Reals) -> 
         error[i] = 0.0
     for k in range(P.sizes.holonomic):
         P.mu[k] = 0.0
-    for k in range(ns):
-        P.z[first + k] = base[2 * n + k]
+    copy(P.z[first:], base[2 * n :], ns)
     put_time(P, C.t)
     error_motion(P, cu, base, error, v)
     residual(P, equations_kept(P), P.F)

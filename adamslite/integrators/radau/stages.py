@@ -60,7 +60,7 @@ from adamslite.integrators.radau.coefficients import (
     TO_STAGES,
 )
 from adamslite.integrators.radau.control import BEFORE, ORIGIN, RATES, Y_ROWS, Z_ROWS, Control
-from adamslite.native.translate import Reals, maximum, native
+from adamslite.native.translate import Reals, copy, maximum, native
 
 
 @native
@@ -165,8 +165,7 @@ def stage_motion(P: Problem, h: float) -> None:
     n, ns, first = P.sizes.n, P.sizes.ns, P.sizes.m + P.sizes.nv
     w, Y = 2 * n + ns, P.history
     for stage in range(1, 4):
-        for k in range(ns):
-            Y[stage * w + 2 * n + k] = Y[stage_z(P, stage - 1) + first + k]
+        copy(Y[stage * w + 2 * n :], Y[stage_z(P, stage - 1) + first :], ns)
     for stage in range(1, 4):
         stage_velocities(P, stage, h)
     for stage in range(1, 4):
@@ -187,8 +186,7 @@ def stage_residuals(P: Problem, h: float) -> float:
         put_stage(P, stage, h)
         residual(P, equations_kept(P), P.F)
         largest = maximum(largest, unresisted_change(P, h))
-        for k in range(nz):
-            P.history[at + (stage - 1) * nz + k] = P.F[k]
+        copy(P.history[at + (stage - 1) * nz :], P.F, nz)
     return largest
 
 
@@ -240,8 +238,7 @@ def move_stages(P: Problem, h: float) -> float:
             largest = maximum(largest, abs(dz[n + k]) / max(1.0, abs(z[k])))
         if P.settings.all_converge:
             largest = max(largest, multiplier_change(P, dz, z, (P.tableau[REAL] / h) ** 2.0))
-        for i in range(n):
-            P.trial[stage * n + i] = y[n + i]
+        copy(P.trial[stage * n :], y[n:], n)
         apply_increment(P, dz, y, z, z[first + ns :], tied)
     stage_motion(P, h)
     for stage in range(3):
@@ -253,8 +250,7 @@ def move_stages(P: Problem, h: float) -> float:
         else:
             size = maximum(largest_share(dz, origin, n), largest_share(P.x, origin[n:], n))
         largest = maximum(largest, size)
-    for k in range(nz):
-        P.F[k] = R[2 * nz + k]
+    copy(P.F, R[2 * nz :], nz)
     return largest
 
 
@@ -266,17 +262,14 @@ def keep_stages(P: Problem) -> None:
     for i in range(n):
         Y[ORIGIN * w + i] += Y[3 * w + i]
         Y[ORIGIN * w + n + i] = Y[3 * w + n + i]
-    for k in range(P.sizes.ns):
-        Y[ORIGIN * w + 2 * n + k] = Y[3 * w + 2 * n + k]
+    copy(Y[ORIGIN * w + 2 * n :], Y[3 * w + 2 * n :], P.sizes.ns)
     for k in range(4 * w):
         Y[BEFORE * w + k] = Y[k]
     old = stage_z(P, 0)
-    for k in range(3 * e):
-        Y[old + 3 * e + k] = Y[old + k]
+    copy(Y[old + 3 * e :], Y[old:], 3 * e)
     for b in range(P.sizes.nb):
         count_from_end(P, b, w)
-    for k in range(w):
-        Y[k] = Y[(BEFORE + 3) * w + k]
+    copy(Y, Y[(BEFORE + 3) * w :], w)
 
 
 @native

@@ -9,7 +9,7 @@ from adamslite.integrators.radau.coefficients import NODE
 from adamslite.integrators.radau.control import BEFORE, ORIGIN, RATES, Control
 from adamslite.integrators.radau.stages import stage_motion, stage_z
 from adamslite.integrators.stepping.output import is_next, record_next
-from adamslite.native.translate import Reals, native, seldom
+from adamslite.native.translate import Reals, copy, native, seldom
 
 
 @native
@@ -20,8 +20,7 @@ def restore_state(P: Problem, C: Control) -> None:
     Y = P.history[ORIGIN * (2 * n + P.sizes.ns) :]
     for i in range(n):
         P.q[i], P.u[i], P.a[i] = Y[i], Y[n + i], P.ra[i]
-    for k in range(first):
-        P.z[k] = P.rz[k]
+    copy(P.z, P.rz, first)
     for k in range(P.sizes.ns):
         P.z[first + k] = Y[2 * n + k]
     put_state(P, C.t, P.q, P.u, P.a, P.z, P.rd)
@@ -35,8 +34,7 @@ def put_end(P: Problem, C: Control) -> None:
     y, d = Y[3 * w :], Y[(RATES + 3) * w :]
     for i in range(n):
         P.q[i], P.u[i], P.a[i] = Y[ORIGIN * w + i] + y[i], y[n + i], d[n + i]
-    for k in range(first + ns):
-        P.z[k] = z[k]
+    copy(P.z, z, first + ns)
     for k in range(ns):
         P.rd[k] = d[2 * n + k]
     put_state(P, C.t + C.h, P.q, P.u, P.a, P.z, P.rd)
@@ -54,8 +52,7 @@ def record(P: Problem, L: Plan, C: Control) -> bool:
         collocated(P, P.history, P.history, w, share, y)
         for i in range(n):
             y[i] += P.history[ORIGIN * w + i]
-        for k in range(ns):
-            P.z[first + k] = y[2 * n + k]
+        copy(P.z[first:], y[2 * n :], ns)
         if not record_next(P, L, C, y):
             return False
     return True
@@ -71,8 +68,7 @@ def put_between(P: Problem, t: float, h: float, x: float) -> None:
     quadratic(P, x, Y[stage_z(P, 0) :], stage_z(P, 1) - stage_z(P, 0), first, z)
     for i in range(n):
         y[i] += Y[ORIGIN * w + i]
-    for k in range(ns):
-        z[first + k] = y[2 * n + k]
+    copy(z[first:], y[2 * n :], ns)
     put_state(P, t + x * h, y, y[n:], a, z, P.rd)
 
 
@@ -117,8 +113,7 @@ def predict(P: Problem, C: Control) -> None:
                 y[i] = Y[i] + c * (Y[n + i] + 0.5 * c * P.ra[i])
             for k in range(ns):
                 y[2 * n + k] = Y[2 * n + k] + c * P.rd[k]
-            for k in range(first):
-                z[k] = P.rz[k]
+            copy(z, P.rz, first)
         for k in range(ns):
             z[first + k] = y[2 * n + k]
         for k in range(P.sizes.holonomic):

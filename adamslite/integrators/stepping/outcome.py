@@ -22,7 +22,7 @@ from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import PART
 from adamslite.integrators.stepping.budget import spent
 from adamslite.integrators.stepping.control import RUNNING, StepControl
-from adamslite.native.translate import Reals, native, rare
+from adamslite.native.translate import Reals, copy, native, rare
 
 # A sign change of the effective mass is approached to this share of HMAX.
 SINGULAR_RESOLUTION = 1e-6
@@ -171,8 +171,7 @@ def has_failed(C: StepControl) -> bool:
 @native
 def keep_solution(P: Problem) -> None:
     """Accelerations, multipliers, variables and states in place are the accepted ones."""
-    for i in range(P.sizes.n):
-        P.ra[i] = P.a[i]
+    copy(P.ra, P.a, P.sizes.n)
     for i in range(P.z.size):
         P.rz[i] = P.z[i]
 
