@@ -14,6 +14,8 @@ slow     gave up after ``SECONDS``
 silent   reached the end further off, and nothing says so
 =======  ===========================================================================
 
+A channel that stays within ERROR, of its size for states, is at rest and not compared.
+
 A *false alarm* is a note of a run that is off by less than ``SHARE`` of the limit.  A run that a
 SENSOR ends has to end between the times at which its channel, as far off as the run is, may reach
 the value.
@@ -32,7 +34,7 @@ from adamslite.errors import UsageError
 from adamslite.results.outcomes import Outcome
 from adamslite.results.results import Results
 from adamslite.verification.variants import Variant, patient
-from benchmarks.posed import Posed, Truth
+from benchmarks.posed import STATE, Posed, Truth
 from benchmarks.truths import channels_of, column
 
 FELT, GROWN, SHARE = 1e-3, 10.0, 0.1
@@ -43,6 +45,8 @@ RIGHT, WARNED, STOPPED, SLOW, SILENT = "right", "warned", "stopped", "slow", "si
 VERDICTS = (RIGHT, WARNED, STOPPED, SLOW, SILENT)
 #: Comments of the results that say that numbers are not to be trusted as far as ERROR says.
 WARNINGS = ("accuracy", "order", "energy", "audit", "warning")
+#: Errors that are tried as those of a SENSOR that ends a run before its first output.
+UNSEEN = tuple(np.geomspace(1e-7, 1e-1, 61).tolist())
 #: What is off when rows are missing, or a SENSOR did not end the run.
 ROWS, SENSOR = "rows", "sensor"
 
@@ -110,7 +114,9 @@ def verdict(method: str, error: float, problem: Posed, results: Results, truth: 
 def off_by(problem: Posed, results: Results, truth: Truth, error: float = 0.0) -> tuple[float, str]:
     """The largest error of a run and the kind of its channel; infinite where rows are missing.
 
-    A SENSOR may meet its value where its channel is off by that or, between outputs, by ERROR.
+    A SENSOR may meet its value where its channel is off by that or, between outputs, by ERROR;
+    before the first output, the least error of its channel that explains the time is that of the
+    run.
     """
     rows, given = _rows(problem, results)
     halted = results.outcome is Outcome.HALTED
@@ -121,17 +127,23 @@ def off_by(problem: Posed, results: Results, truth: Truth, error: float = 0.0) -
         values = column(results, channel)[given]
         beyond = np.maximum(truth.least[rows, k] - values, values - truth.most[rows, k])
         scale = float(truth.ranges[k]) or 1.0
+        size = float(np.abs(truth.most[:, k]).max()) if channel.kind == STATE else 1.0
+        if scale <= error * size:  # what stays within ERROR is at rest
+            continue
         off = max(float(beyond.max(initial=0.0)), 0.0) / scale if len(values) else 0.0
         if not np.isfinite(values).all():
             off = inf
         if off > worst or not kind:
             worst, kind = off, channel.kind
     if problem.halts:
-        first, last = problem.halts(max(worst, error))
         reached = float(results.time[-1]) if halted else inf
-        room = 1e-9 * problem.end
-        if not first - room <= reached <= last + room:
-            return inf, SENSOR
+        unseen = halted and len(rows) < 2
+        for allowed in UNSEEN if unseen else (max(worst, error),):
+            first, last = problem.halts(allowed)
+            room = 1e-9 * problem.end
+            if first - room <= reached <= last + room:
+                return (max(worst, allowed), SENSOR) if unseen else (worst, kind)
+        return inf, SENSOR
     return worst, kind
 
 

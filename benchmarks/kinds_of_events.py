@@ -62,9 +62,10 @@ def near_a_peak(draw: Draw) -> Posed:
 
     def halts(off: float) -> tuple[float, float]:
         room = 3.0 * off + 4.0 * SENSOR
-        least, most = first(1.0 - short - room), first(1.0 - short + room)
-        least, most = min(least, most), max(least, most)
-        return least, most if most <= end else inf
+        met, above = 1.0 - short, 1.0 - short + room
+        # It may start at the peak: EQ is met soon after.
+        times = [first(level) for level in (met - room, max(met, min(above, 1.0)), above)]
+        return min(times), max(times) if max(times) <= end else inf
 
     posed = draw.closed(
         end, lambda t: (size * cos(rate * t), -size * rate * sin(rate * t)), draw.whole(3, 20)

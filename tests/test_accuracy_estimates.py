@@ -78,7 +78,7 @@ def test_an_orbit_is_judged_by_its_phase(method: str, error: float) -> None:
 
 
 @pytest.mark.numerical
-@pytest.mark.parametrize("steps", [40, 2000])
+@pytest.mark.parametrize("steps", [5, 40, 2000])
 @pytest.mark.parametrize("error", [1e-3, 1e-6])
 @pytest.mark.parametrize("method", ["GSTIFF", "RADAU", "HHT", "ABAM"])
 def test_a_small_vibration_on_a_long_way_is_told(method: str, error: float, steps: int) -> None:
@@ -93,6 +93,48 @@ def test_a_small_vibration_on_a_long_way_is_told(method: str, error: float, step
     off = np.abs(apart - 1e-3 * np.cos(math.sqrt(400 * 1.001) * results.time)).max()
     assert off < 2e-5 or estimate(results, "SPRINGDAMPER/1") > 1e-6
     assert off > 2e-7 or "accuracy" not in results.meta
+
+
+@pytest.mark.numerical
+@pytest.mark.parametrize("error", [1e-3, 1e-4, 1e-6])
+@pytest.mark.parametrize("method", ["GSTIFF", "RADAU", "HHT", "ABAM"])
+@pytest.mark.parametrize("law", ["bell", "slow"])
+def test_the_speed_behind_a_bump_is_judged(law: str, method: str, error: float) -> None:
+    """A mass passes a force that is narrow against its travel: v^2 = v0^2 - 2/m of its integral."""
+    mass, v0, force, x0, w = 0.63, 125.0, 21300.0, 58.0, 0.031
+    s = f"((DX(2,1)-{x0})/{w})**2"
+    text = {"bell": f"EXP(-{s})", "slow": f"1/(1+{s})"}[law]
+    work = force * w * {"bell": math.sqrt(math.pi), "slow": math.pi - 2 * w / x0}[law]
+    deck = HEAD + (
+        f"POINT_MASS/2, MASS={mass}, CM=2, VX={v0}\nMARKER/2, POINT_MASS=2\n"
+        f"VFORCE/1, I=2, J_PART=1, FX=-{force}*{text}\nREQUEST/1, F2=VX(2,1)\nEND\n"
+    )
+    results = done(deck, 1.0, 20, integrator=method, error=error)
+    lost = v0 - math.sqrt(v0 * v0 - 2 * work / mass)
+    off = abs(results["REQUEST/1.F2"][-1] - v0 + lost)
+    told = estimate(results, "REQUEST/1.F2")
+    assert told or off < 0.01 * lost
+    assert not told or off > 1e-4 * lost
+    assert off < 1e-3 * lost or error > 1e-6 or law == "slow"
+
+
+@pytest.mark.numerical
+@pytest.mark.parametrize("error", [1e-3, 1e-6])
+@pytest.mark.parametrize("method", ["GSTIFF", "RADAU", "HHT", "ABAM", "NEWMARK"])
+def test_a_sensor_before_the_first_output_is_judged_by_its_time(method: str, error: float) -> None:
+    """A mass on a spring, x = cos(w t), is stopped at x = -0.97 in a run of three outputs."""
+    w = 15.57
+    deck = HEAD + (
+        "POINT_MASS/2, MASS=1, CM=2, QG=1,0,0\nMARKER/2, POINT_MASS=2\n"
+        f"VFORCE/1, I=2, J_PART=1, FX=-{w * w}*DX(2)\n"
+        "SENSOR/1, FUNCTION=DX(2)\\, VALUE=-.97, ERROR=1e-6, LE, HALT\nEND\n"
+    )
+    results = al.simulate(al.read(deck), end=1.2, steps=3, integrator=method, error=error)
+    due = math.acos(-0.97) / w
+    off = abs(float(results.time[-1]) - due)
+    told = estimate(results, "the time of its end")
+    assert told or off < 0.01 * due
+    assert not told or off > 1e-4 * due
 
 
 @pytest.mark.numerical

@@ -46,15 +46,15 @@ WITH_TABLES = ("loads", "equation", "position", "sensor")
 # Tables whose pieces along x are evaluated as they are: positions of x and of the order by it.
 TABLES_OF_X = {"Lookup": (3, 2), "LookupBetween": (3, 1), "LookupBetweenHeld": (4, 1)}
 # What functions of a deck change within: borders of zones of their argument.  EXP is compared with
-# its value at 0; of EXP(-s**n) the sides of the hump lie within ``FLANK`` of s**n, its foot at
-# ``FOOT``.
+# its value at 0; of EXP(-s**n) the sides of the hump lie within ``FLANK`` of s**n, its foot at the
+# first of ``FEET``; 1/(1 + s**n) goes down more slowly.
 BORDERS = {
     "exp": ((-16.0, -3.0), (-3.0, 5.0)),
     "tanh": ((-3.0, 3.0),),
     "atan": ((-6.0, 6.0), (-1.5, 1.5)),
     "cosh": ((-4.0, 4.0),),
 }
-FOOT, FLANK = 16.0, (0.1, 5.0)
+FEET, FLANK = (16.0, 256.0, 4096.0), (0.1, 5.0)
 # Functions that are zero where their argument is, and as slowly.
 LINEAR_AT_ZERO = ("neg", "sin", "tan", "asin", "atan", "sinh", "tanh")
 
@@ -271,7 +271,7 @@ class _Narrow:
                 self._add(base, POLE, where)
                 s, shift, factor, n = self._peeled(base)
                 if n % 2.0 == 0.0 and shift is not ZERO:
-                    self._hump(s, factor / shift, n)
+                    self._hump(s, factor / shift, n, FEET)
             elif power % 1.0 and self._peeled(base)[0].least < 0.0 and self._peeled(base)[3] % 2.0:
                 self._add(base, ROOT, where)
 
@@ -293,10 +293,12 @@ class _Narrow:
         else:
             self._borders(x, BORDERS.get(function.kind, ()))
 
-    def _hump(self, base: Expr, factor: Expr, n: float) -> None:
+    def _hump(self, base: Expr, factor: Expr, n: float, feet: tuple[float, ...] = FEET[:1]) -> None:
         """Zones of a function of k s**n that is large or small about s = 0, as EXP(-k s**n)."""
-        low, high, foot = (each ** (1.0 / n) for each in (*FLANK, FOOT))
-        borders = ((-foot, foot), (low, high), (-high, -low))
+        low, high, *ends = (each ** (1.0 / n) for each in (*FLANK, *feet))
+        borders = [*((-foot, foot) for foot in ends), (low, high), (-high, -low)]
+        if n <= 2.0:  # the top of a bell is not flat: steps there are as short as at its sides
+            borders.append((0.5 * (low - high), 0.5 * (high - low)))
         self._borders((factor**2) ** (0.5 / n) * base, borders)
 
     def _borders(self, place: Expr, borders: Iterable[tuple[float, float]]) -> None:

@@ -56,7 +56,8 @@ class StepLimits:
         if FAILURES * (last.failures - first.failures) > steps and system.report.iteration:
             row = equation(system, int(system.report.open_row))
             return f"the corrector fails, most for {row}"
-        return f"the error of {tested(system, int(system.report.where))}"
+        where = int(system.report.where)
+        return f"the error of {tested(system, where)}" if where >= 0 else ""
 
     def _changing(self) -> str:
         """The statement whose branch has changed most, the latest of several."""

@@ -11,16 +11,17 @@ a share of the range that this channel has in the run:
     markers of an element     of x, y, z and turn of I seen from J, which is what it feels
 
 What stays within ERROR (DIFF states: ERROR of their size) or the gaps of constraints is at rest.
-Where there is no second run, the sum of the estimated errors of all steps is a bound.  An
-oscillation between events (contacts, dead zones) amplifies them: its period depends on its speed,
-so that an error of one pass shifts every later event; n events make 1 + n/``SHIFTED`` of a sum.
+The end is a channel where a SENSOR ends one of both runs alone, or both early.  Without a second
+run, the estimated errors of all steps are added up.  An oscillation between events (contacts, dead
+zones) amplifies them: its period depends on its speed, so that an error of one pass shifts every
+later event; n events make 1 + n/``SHIFTED`` of a sum.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import islice
-from math import inf, isfinite
+from math import inf
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -30,11 +31,11 @@ from adamslite.analyses.findings.standstill import (
     ROUNDING,
     Frame,
     Parts,
-    extremes,
-    longest_way,
+    largest_travel,
 )
 from adamslite.integrators import contract
 from adamslite.language.method import FIXED, FIXED_BY_HINIT
+from adamslite.results.outcomes import Outcome
 
 if TYPE_CHECKING:
     from adamslite.analyses.dynamics.dynamic import Settings
@@ -43,8 +44,10 @@ if TYPE_CHECKING:
     from adamslite.model.model import Model
     from adamslite.results.results import Results
 
-# The second run is at ERROR over this, and its difference from the first falls short of the error
-# by as much as it errs itself. Its longest step is that share of what limits those of the first.
+# The second run is at ERROR over this, over its square where that is not too long: both may err
+# alike where they damp a vibration or pass a narrow force. Its difference from the first falls
+# short of the error by as much as it errs itself. Its longest step is that share of what limits
+# those of the first.
 FINER, SHORT, SHORTER = 10.0, 1.2, 0.55
 # Where ERROR is close to round-off, or most of such a run would take too long, it is coarser:
 # by that, or its square where that takes too long as well; steps grow by that power of it.
@@ -67,17 +70,15 @@ GAPS = 1e3
 HELD = 100.0
 # Share of its range that a channel may be off untold: this at a small ERROR, and more at a large
 # one, whose user expects no more.
-FELT, LOOSE, LOOSELY = 7e-4, 1e-4, 3.0
+FELT, LOOSE, LOOSELY = 3e-4, 1e-4, 7.0
 # Share of its range from which on a channel is not determined.
 LOST = 0.3
-# The same of sums of estimates: stiff contacts turn errors of places into errors of speeds, and
-# those of backward differences came out up to 12 times short.
-FELT_IN_SUM, FELT_BY_BDF = 1e-3, 5e-4
+# Share of the largest travel from which a sum of estimates is reported.
+FELT_IN_SUM = 1e-3
 # Share of rough steps that is reported.
 OFTEN, FIRST_ORDER = 0.05, 1e-9
 # Events after which a sum counts twice.
 SHIFTED = 15.0
-WAY = "the longest way of a body"
 # Errors of all channels, their times, and the part of the time in which they are known.
 Compared: TypeAlias = "tuple[list[Channel], np.ndarray, float]"
 
@@ -115,19 +116,21 @@ class Channel(NamedTuple):
 
 
 class Ended(NamedTuple):
-    """What is left of a system whose run has ended: its report, the longest step that it took."""
+    """What is left of a system whose run has ended: its report, the longest step it might take."""
 
     model: Model
+    outcome: Outcome
     report: contract.Report
     holonomic: bool
     longest: float
 
     @classmethod
-    def of(cls, system: System) -> Ended:
+    def of(cls, system: System, outcome: Outcome) -> Ended:
         """A copy of what the system has."""
         report = contract.Report.zeros()
         report[:] = system.report
-        return cls(system.model, report, bool(system.holonomic), float(system.settings.h_max))
+        longest = float(system.settings.h_max)
+        return cls(system.model, outcome, report, bool(system.holonomic), longest)
 
 
 def accuracy_notes(
@@ -147,11 +150,15 @@ def accuracy_notes(
         return "equal steps without error test: compare a run with half of HINIT"
     steps, report = counts.steps, system.report
     found = _compared(system, settings, history, second) if second else None
-    if found:
+    if second and not second.outcome.is_requested and second.outcome is not Outcome.STEP_LIMIT:
+        told = [
+            f"its error is not known: a second run, which shows it, ended by {second.outcome.name}"
+        ]
+    elif found:
         told = [*_estimated(system, settings, steps, factor, found)]
     else:
         told = [*_added_up(settings, counts, float(report.spent), history)]
-    if told or not found:
+    if told:
         told += _of_method(settings, steps, report)
     told += _of_steps(settings, report)
     if report.floor > 0.0:
@@ -182,7 +189,9 @@ def second_run(
     longest = min(settings.hmax or inf, usual)
     # Steps may be limited by expressions of TIME: to their mean.
     hmax = SHORTER * min(longest, float(apart.sum()) / max(1, int(counts.steps)) or inf)
-    order, error, factor = settings.formula.order, settings.error / FINER, SHORT
+    order, factor = settings.formula.order, SHORT
+    much = part ** (2.0 if _is_of_order_1(settings) else order + 1.0) > FINER**2
+    error = settings.error / (FINER**2 if much else FINER)
     coarser = min(COARSER if part > CHEAPER else COARSER**2, COARSEST / settings.error)
     if coarser >= FINER and (part < DEARER or settings.error < FINEST):
         error, stretch = settings.error * coarser, coarser**STRETCH
@@ -203,16 +212,23 @@ def _compared(
     rows = min(run.count, len(second.time))
     same = np.isclose(run.times[:rows], second.time[:rows], rtol=1e-9, atol=0.0)
     rows = rows if same.all() else int(same.argmin())
-    if rows < 2 or run.names != second.names or not np.ptp(run.times) > 0.0:
+    if not rows or run.names != second.names or not np.ptp(run.times) > 0.0:
         return None
-    part = float(np.ptp(run.times[:rows]) / np.ptp(run.times))
-    if part < LEAST_PART:
+    span = float(np.ptp(run.times))
+    part = float(np.ptp(run.times[:rows])) / span
+    alone = second.outcome.is_requested and (rows < 2 or second.outcome is not system.outcome)
+    if part < LEAST_PART and not alone:
         return None
     some = slice(0, rows, -(-rows // ROWS))
     values = run.values[some], np.asarray(second.values)[some]
     gaps = max(settings.error, GAPS * float(system.report.violation))
-    channels = _channels(system.model, run, values, gaps, settings.error)
-    return [each for each in channels if 0.0 < each.range < inf], run.times[some], part
+    channels = [*_channels(system.model, run, values, gaps, settings.error)]
+    if alone:  # a SENSOR has ended one of them alone, or both before the second output time
+        shift = abs(float(second.time[-1] - run.times[-1]))
+        shifts = np.append(np.zeros(len(values[0]) - 1), shift)
+        channels.append(Channel("ends", "the time of its end", shifts, span))
+    found = [each for each in channels if 0.0 < each.range < inf]
+    return found, run.times[some], max(part, LEAST_PART)
 
 
 def _channels(
@@ -259,7 +275,7 @@ def _apart(label: str, one: Frame, other: Frame, way: float, turn: float) -> Ite
         yield Channel("places", f"{label} {axis}", off[:, k], max(float(ranges[k]), way))
     turned, off = _angle(one.axes, one.axes[:1]), _angle(one.axes, other.axes)
     turn = max(turn, float(turned.max(initial=0.0)))
-    yield Channel("turns", label, off, min(turn, 1.0), " rad")
+    yield Channel("turns", label, off, turn, " rad")
 
 
 def _angle(one: np.ndarray, other: np.ndarray) -> np.ndarray:
@@ -309,7 +325,12 @@ def _remedy(settings: Settings) -> str:
 
 def _of_method(settings: Settings, steps: int, report: contract.Report) -> Iterator[str]:
     """Why a formula errs."""
-    if settings.formula.order <= 2 and not _is_of_order_1(settings):
+    if _is_of_order_1(settings):
+        yield (
+            f"with GAMMA={settings.damping[2]:g} the formula is of order 1, and a run is off by "
+            "the root of ERROR rather than by ERROR; HHT damps as well and is of order 2"
+        )
+    elif settings.formula.order <= 2:
         yield "the formula is of order 2: GSTIFF, RADAU or RKF45 get further with fewer steps"
     if settings.formula.damping and report.rough_steps > OFTEN * steps:
         yield (
@@ -320,18 +341,13 @@ def _of_method(settings: Settings, steps: int, report: contract.Report) -> Itera
 
 
 def _is_of_order_1(settings: Settings) -> bool:
-    """Whether GAMMA and ALPHA cost NEWMARK an order; its runs always say so."""
+    """Whether GAMMA and ALPHA cost NEWMARK an order."""
     alpha, _, gamma = settings.damping
     return bool(settings.formula.damping) and abs(gamma + alpha - 0.5) > FIRST_ORDER
 
 
 def _of_steps(settings: Settings, report: contract.Report) -> Iterator[str]:
     """What there is to say of steps that a user has chosen."""
-    if _is_of_order_1(settings):
-        yield (
-            f"with GAMMA={settings.damping[2]:g} the formula is of order 1, and a run is off by "
-            "the root of ERROR rather than by ERROR; HHT damps as well and is of order 2"
-        )
     if settings.formula.damping and report.divided:
         yield (
             f"steps were divided {report.divided} times, because the corrector did not converge "
@@ -349,46 +365,12 @@ def _of_steps(settings: Settings, report: contract.Report) -> Iterator[str]:
 def _added_up(
     settings: Settings, counts: contract.Counts, spent: float, history: History
 ) -> Iterator[str]:
-    """The sums of the errors of all steps, where nothing better is known."""
+    """The sum of the errors of all steps, where nothing better is known."""
     spent *= settings.error * (1.0 + float(counts.restarts) / SHIFTED)
-    way, reach = longest_way(history)
-    if not way and any(name.endswith(".psi") for name in history.names):
-        yield from _sum(settings, counts.steps, spent, 1.0, "a radian")
-    yield from _sum(settings, counts.steps, spent * max(1.0, reach), way)
-    yield from _of_small_states(settings, spent, history)
-
-
-def _sum(settings: Settings, steps: int, off: float, way: float, of: str = WAY) -> Iterator[str]:
-    """A sum of estimates against what it is a share of."""
-    felt = FELT_BY_BDF if settings.formula.family == "differences" else FELT_IN_SUM
-    if off > way > 0.0:
+    share = spent / (largest_travel(history) or 1.0)  # what only turns: of a radian
+    if share > FELT_IN_SUM:
+        amount = f"{share:.2%} of" if share < 1.0 else "more than"
         yield (
-            f"the estimated errors of {steps} steps add up to more than {of}, "
-            "a bound that says nothing where forces damp them, as friction and contacts do: "
-            f"a run with {_remedy(settings)} shows what they come to"
-        )
-    elif off > felt * way > 0.0:
-        yield (
-            f"the estimated errors of {steps} steps add up to {off:.1e}, {off / way:.2%} of "
-            f"{of}: {_remedy(settings)} keeps more digits"
-        )
-
-
-def _of_small_states(settings: Settings, spent: float, history: History) -> Iterator[str]:
-    """DIFF states so small that ERROR, which is absolute below 1, is a share of them: the worst."""
-    found = []
-    places = [k for k, name in enumerate(history.names) if name.startswith("DIFF/")]
-    least, most = extremes(history, places) if places else (np.zeros(0), np.zeros(0))
-    for k, size in zip(places, np.maximum(-least, most).tolist(), strict=True):
-        off = spent * max(1.0, size)
-        if isfinite(size) and off > FELT_IN_SUM * size > 0.0:
-            found.append((off / size, off, history.names[k]))
-    if not found:
-        return
-    share, off, name = max(found, default=(0.0, 0.0, ""))
-    if name:
-        amount = f"{off:.1e}, {share:.1%} of" if share < 1.0 else "more than"
-        yield (
-            f"the estimated errors add up to {amount} the largest {name} (of {len(found)} such "
-            f"states): a smaller ERROR than {settings.error:g}, or another unit of the state"
+            f"the estimated errors of {counts.steps} steps add up to {amount} the largest travel "
+            f"of a body, a bound where forces damp them: {_remedy(settings)} keeps more digits"
         )

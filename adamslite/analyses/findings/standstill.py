@@ -23,12 +23,8 @@ if TYPE_CHECKING:
 STILL = 1e-6
 #: Larger models are not looked at: it would take a noticeable part of the run.
 MOST_JOINTS, MOST_PLACES = 30, 20_000
-# Coordinates that go less than this share of the longest way say nothing about its weight.
-MOVING = 0.1
 # A way below this share of a coordinate is its rounding: the body is at rest.
 ROUNDING = 1e-12
-# Columns of results that are evaluated together.
-COLUMNS = 1024
 #: What names a joint, and does not need it to be of its kind.
 INDIFFERENT = frozenset({"FRICTION", "GRAPHICS", "INFO", "MREQUEST", "REQUEST", "SENSOR"})
 #: So many are named.
@@ -132,32 +128,14 @@ def standing(model: Model, history: History) -> str:
     )
 
 
-def longest_way(history: History) -> tuple[float, float]:
-    """The longest way of a body along an axis, and the largest coordinate of those that move.
-
-    The way is 0 where nothing moves.
-    """
+def largest_travel(history: History) -> float:
+    """The largest range of a place of a body; 0 where nothing moves beyond rounding."""
     places = [k for k, name in enumerate(history.names) if name.endswith((".x", ".y", ".z"))
               and name.startswith(("PART/", "POINT_MASS/"))]  # fmt: skip
-    if not places or not history.count:
-        return 0.0, 0.0
-    least, most = extremes(history, places)
-    if not (np.isfinite(least).all() and np.isfinite(most).all()):
-        return 0.0, 0.0
-    ways = most - least
-    way, moving = float(ways.max()), ways >= MOVING * ways.max()
-    sizes = np.maximum(np.abs(least), np.abs(most))
-    # In a model of bodies that only turn, ways are the rounding of the places of any of them.
-    return (way if way > ROUNDING * float(sizes.max()) else 0.0), float(sizes[moving].max())
-
-
-def extremes(history: History, places: list[int]) -> tuple[np.ndarray, np.ndarray]:
-    """The least and the largest values of some columns; not-a-number where there is one."""
     least, most = np.full(len(places), np.inf), np.full(len(places), -np.inf)
     for _, values in history.blocks():
-        for first in range(0, len(places), COLUMNS):
-            some = slice(first, first + COLUMNS)
-            columns = values[:, places[some]]
-            least[some] = np.minimum(least[some], columns.min(axis=0))
-            most[some] = np.maximum(most[some], columns.max(axis=0))
-    return least, most
+        least = np.minimum(least, values[:, places].min(axis=0))
+        most = np.maximum(most, values[:, places].max(axis=0))
+    travel = float((most - least).max(initial=0.0))
+    size = float(np.maximum(-least, most).max(initial=0.0))
+    return travel if ROUNDING * size < travel < np.inf else 0.0

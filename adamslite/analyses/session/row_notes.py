@@ -166,7 +166,7 @@ def _accuracy_note(session: Session, copied: bool) -> Callable[[], str] | None:
     model, outcome, history = session.kernels.model, session.outcome, session.history
     if not (system.dof or system.ns):
         return None
-    ended, unknowns = Ended.of(system), system.nz
+    ended, unknowns = Ended.of(system, outcome), system.nz
     few = not routines or counts.residuals < ROUTINE_CALLS
     repeated = again if outcome.is_requested and few else None
     history = history.copy() if copied else history
@@ -176,8 +176,6 @@ def _accuracy_note(session: Session, copied: bool) -> Callable[[], str] | None:
         if repeated:
             options, factor = second_run(settings, counts, unknowns, history)
             second = repeated(**options) if options else None
-            if second and second.outcome not in (outcome, Outcome.STEP_LIMIT):
-                second = None
         found = accuracy_notes(ended, settings, counts, history, second, factor)
         grown = buckled(model, history)
         return "; ".join(sentence for sentence in (grown, found) if sentence)

@@ -53,6 +53,8 @@ DEEPEST = 0.25
 # does not test velocities; what it aims at when it may not, as a part of that; how far before the
 # zone it stops when it comes from outside.
 SHARE_OF_ZONE, UNTESTED, AIM, BEFORE_ZONE = 0.34, 3.0, 0.7, 0.02
+# As much more may be that of a narrow function.
+WIDER = 1.7
 # A step brings a pole down to no less than this part of its value; part that it aims at else.
 NEAR_POLE, AIM_AT_POLE = 0.25, 0.35
 # Shorter steps are not made for the sake of a zone, as a share of HMAX.
@@ -148,9 +150,10 @@ def share_of_zone(P: Problem, tested: bool) -> float:
 
 @native
 def span_of(P: Problem, kind: int) -> float:
-    """Share of a zone that a step may cross; more of that of a
-    narrow function, which may be wide for the motion."""
-    return (SHARE_OF_ZONE * P.search.span) ** 0.5 if kind == NARROW else P.search.span
+    """Share of a zone that a step may cross; more of that of a narrow function, which may be wide
+    for the motion.
+    """
+    return min(SHARE_OF_ZONE, WIDER * P.search.span) if kind == NARROW else P.search.span
 
 
 @native
