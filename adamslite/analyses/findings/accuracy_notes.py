@@ -58,6 +58,9 @@ LOOK, SHARE = 900_000.0, 0.03
 DEARER, CHEAPER = 1.45, 0.5
 # Of less than this share of the time it says nothing; numbers that are compared at most.
 LEAST_PART, MOST_NUMBERS = 0.02, 2**21
+# A coarser run that takes more than this share of the steps is limited as the first one is, by
+# expressions of TIME or zones, and errs alike.
+ALIKE = 0.8
 # Steps so close to HMAX on average are limited by it.
 LIMITED = 0.8
 # An error that grows by a higher power of the time is amplified.
@@ -175,10 +178,10 @@ def accuracy_notes(
 
 
 def second_run(
-    settings: Settings, counts: contract.Counts, unknowns: int, history: History
+    settings: Settings, counts: contract.Counts, unknowns: int, history: History, finer: bool
 ) -> tuple[dict[str, Any], float]:
     """The options of a second run, none where it would take too long, and the error of the first
-    over the difference of both.
+    over the difference of both; ``finer``: it must not be coarser.
     """
     takes = max(float(counts.residuals) * unknowns, 1.0)
     part = max(LOOK, SHARE * takes) / takes
@@ -193,7 +196,7 @@ def second_run(
     much = part ** (2.0 if _is_of_order_1(settings) else order + 1.0) > FINER**2
     error = settings.error / (FINER**2 if much else FINER)
     coarser = min(COARSER if part > CHEAPER else COARSER**2, COARSEST / settings.error)
-    if coarser >= FINER and (part < DEARER or settings.error < FINEST):
+    if not finer and coarser >= FINER and (part < DEARER or settings.error < FINEST):
         error, stretch = settings.error * coarser, coarser**STRETCH
         hmax = stretch * longest
         factor = 1.0 / (min(coarser ** (order / (order + 1.0)), stretch**order) - 1.0)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from adamslite.analyses.findings.accuracy_notes import Ended, accuracy_notes, second_run
+from adamslite.analyses.findings.accuracy_notes import ALIKE, Ended, accuracy_notes, second_run
 from adamslite.analyses.findings.buckling import buckled
 from adamslite.analyses.findings.slack import compressed
 from adamslite.results.outcomes import Outcome
@@ -174,8 +174,12 @@ def _accuracy_note(session: Session, copied: bool) -> Callable[[], str] | None:
     def note() -> str:
         second, factor = None, 0.0
         if repeated:
-            options, factor = second_run(settings, counts, unknowns, history)
-            second = repeated(**options) if options else None
+            for finer in (False, True):
+                options, factor = second_run(settings, counts, unknowns, history, finer)
+                second = repeated(**options) if options else None
+                coarser = bool(options) and options["error"] > settings.error
+                if not (second and coarser and second.summary["steps"] > ALIKE * counts.steps):
+                    break
         found = accuracy_notes(ended, settings, counts, history, second, factor)
         grown = buckled(model, history)
         return "; ".join(sentence for sentence in (grown, found) if sentence)
