@@ -51,6 +51,18 @@ def test_a_formula_has_one_order():
     assert "the formula is of order 1" in note and "the formula is of order 2" not in note
 
 
+@pytest.mark.parametrize(("speed", "told"), [(0.0, True), (50.0, False)])
+def test_vibrations_are_damped_where_they_carry_energy(speed: float, told: bool):
+    """A vibration of 20 mm at 20 rad/s, 0.4 m/s, in a run that goes at 50 m/s or not at all."""
+    deck = GROUND + (
+        f"POINT_MASS/2, MASS=1000, CM=2, VX={speed}\nMARKER/2, POINT_MASS=2\n"
+        f"POINT_MASS/3, MASS=1, CM=3, QG=1.02,0,0, VX={speed}\nMARKER/3, POINT_MASS=3\n"
+        "SPRINGDAMPER/1, TRANSLATIONAL, I=3, J=2, K=400, LENGTH=1\nEND\n"
+    )
+    note = done(deck, 20.0, 40, integrator="HHT", error=1e-3).meta["accuracy"]
+    assert "estimated global error" in note and ("damped, not followed" in note) == told
+
+
 @pytest.mark.parametrize("error", [1e-3, 1e-6])
 def test_a_formula_that_errs_little_has_no_order(error: float):
     """A mass that falls: steps of any length are exact, and nothing is said of GAMMA."""
