@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 from tiers import every
 
 import adamslite
@@ -138,3 +139,82 @@ def test_other_rows_are_left_out_only_when_those_kept_depend(angle, drop, wrong)
     if drop:
         system.drop([kept[0], *system.elimination.dropped[1:]])
     assert badly_chosen(system) is wrong
+
+
+def row(
+    spans: tuple[float, ...], length: float, angle: float, rate: float, end: str, torque: float
+) -> tuple[str, float, float]:
+    """A row of parallelograms: uniform cranks of 1 kg on the ground, couplers of 2 kg that join one
+    to the next by a REVOLUTE and by ``end``; ``torque`` on the first.  With its inertia and the
+    moment of its weight about the crank: J a" = torque - w cos a.
+    """
+    e = length * np.array([np.cos(angle), np.sin(angle)])
+    vx, vy = -e[1] * rate, e[0] * rate
+    lines = ["A row of parallelograms", "UNITS/SYSTEM=MKS", "ACCGRAV/JGRAV=-9.81", "PART/1, GROUND"]
+    for k, x in enumerate([0.0, *np.cumsum(spans)]):
+        inertia = length**2 / 12
+        lines += [
+            f"MARKER/{k + 1}, PART=1, QP={float(x)!r},0,0",
+            f"PART/{10 + k}, MASS=1, CM={10 + k}2, IP=0.01,{inertia!r},{inertia!r}",
+            f", QG={float(x)!r},0,0, REULER={angle!r},0,0",
+            f", VX={float(vx) / 2!r}, VY={float(vy) / 2!r}, WZ={rate!r}",
+            f"MARKER/{10 + k}0, PART={10 + k}\nMARKER/{10 + k}1, PART={10 + k}, QP={length!r},0,0",
+            f"MARKER/{10 + k}2, PART={10 + k}, QP={length / 2!r},0,0",
+            f"JOINT/{k + 1}, REVOLUTE, I={10 + k}0, J={k + 1}",
+        ]
+    for k, (x, span) in enumerate(zip(np.cumsum([0.0, *spans]), spans, strict=False)):
+        inertia = 2 * span**2 / 12
+        lines += [
+            f"PART/{30 + k}, MASS=2, CM={30 + k}2, IP=0.01,{inertia!r},{inertia!r}",
+            f", QG={float(x + e[0])!r},{float(e[1])!r},0, VX={float(vx)!r}, VY={float(vy)!r}",
+            f"MARKER/{30 + k}0, PART={30 + k}\nMARKER/{30 + k}1, PART={30 + k}, QP={span!r},0,0",
+            f"MARKER/{30 + k}2, PART={30 + k}, QP={span / 2!r},0,0",
+            f"JOINT/{100 + k}, REVOLUTE, I={30 + k}0, J={10 + k}1",
+            f"{end}, I={30 + k}1, J={11 + k}1".replace("/", f"/{200 + k}, "),
+        ]
+    lines += [
+        f"SFORCE/1, ROTATIONAL, I=100, J=1, FUNCTION={torque!r}",
+        f"REQUEST/1, F2=AZ(100,1)\\, F3=AZ({10 + len(spans)}0,1)",
+        "END",
+    ]
+    cranks, couplers = len(spans) + 1, 2 * len(spans)
+    weight = 9.81 * length * (cranks / 2 + couplers)
+    return "\n".join(lines) + "\n", length**2 * (cranks / 3 + couplers), weight
+
+
+@pytest.mark.numerical
+@pytest.mark.parametrize(
+    ("spans", "length", "angle", "rate", "end", "torque"),
+    [
+        ((0.8, 1.3), 0.6, 0.9, 7.0, "JOINT/REVOLUTE", 4.0),
+        ((1.1, 0.9, 1.6, 0.7), 1.2, 2.0, -5.0, "JPRIM/INLINE", -30.0),
+    ],
+)
+@pytest.mark.parametrize(("error", "allowed"), [(1e-4, 2e-4), (1e-6, 2e-6)])
+def test_radau_passes_flattened_rows_of_parallelograms(
+    spans, length, angle, rate, end, torque, error: float, allowed: float
+) -> None:
+    """All cranks turn as the one pendulum does, through seven and five flattened postures."""
+    text, inertia, weight = row(spans, length, angle, rate, end, torque)
+    known = solve_ivp(
+        lambda t, y: [y[1], (torque - weight * np.cos(y[0])) / inertia],
+        (0, 3.0), [angle, rate], method="DOP853", rtol=1e-12, atol=1e-12,
+    ).y[0]  # fmt: skip
+    assert np.ptp(np.floor(known / np.pi)) >= 4
+    results = adamslite.simulate(
+        adamslite.read(text), end=3.0, steps=30, error=error, integrator="RADAU"
+    )
+    assert results.outcome is Outcome.DONE, results.message
+    assert results["REQUEST/1.F2"][-1] == pytest.approx(known[-1], abs=allowed)
+    assert results["REQUEST/1.F3"][-1] == pytest.approx(known[-1], abs=allowed)
+
+
+@pytest.mark.numerical
+def test_radau_keeps_the_energy_of_the_flattened_parallelogram() -> None:
+    """Ten seconds and its flattened postures at ERROR = 1e-6."""
+    results = adamslite.simulate(
+        adamslite.read(parallelogram()), end=10.0, steps=100, integrator="RADAU", error=1e-6
+    )
+    assert results.outcome is Outcome.DONE, results.message
+    assert np.abs(results["VARIABLE/skew"]).max() < 1e-8
+    assert np.ptp(results["VARIABLE/energy"]) < 1e-5

@@ -143,7 +143,7 @@ def by_matrices(P: Problem, L: Plan, D: Tangents, S: Forward, h: float) -> bool:
 def ready(P: Problem, L: Plan, S: Forward, h: float) -> bool:
     """Derivatives and factors for a step of size ``h``."""
     if S.age >= KEEP_STEPS:
-        radau_jacobian(P, L, h)
+        radau_jacobian(P, 2, h)
         S.age, S.factored = 0, 0.0
     if not abs(h - S.factored) <= SAME_STEP * h:
         S.factored = h if radau_matrices(P, L, h) else 0.0

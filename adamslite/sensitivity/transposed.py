@@ -73,7 +73,7 @@ def factored(P: Problem, L: Plan, task: int, cu: float) -> bool:
     if task == FACTOR_RATES:
         acceleration_matrix(P)
         return factor(L, P.LA, P.pivots_a, P.work)
-    radau_jacobian(P, L, cu)
+    radau_jacobian(P, 2, cu)
     return radau_matrices(P, L, cu)
 
 

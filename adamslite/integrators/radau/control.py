@@ -21,6 +21,7 @@ class Control(ImplicitControl):
     theta, turns         rate of the last iterations, how many there were
     last_norm, last_size error and size of the last accepted step (0: none)
     cautious, known      the step must not grow; there is a Jacobian
+    separate             each stage gets derivatives of its own in this step
     to_target            equal steps to the time that must be met
     passed               the step that has passed its error test from where the run stands, and was
                          taken again, shorter, to end at a crossing
@@ -34,6 +35,7 @@ class Control(ImplicitControl):
     last_size: float
     cautious: bool
     known: bool
+    separate: bool
     to_target: float
     passed: float
     lengthened: int

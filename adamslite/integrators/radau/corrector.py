@@ -16,11 +16,12 @@ from adamslite.integrators.radau.stages import (
     move_stages,
     radau_jacobian,
     radau_matrices,
+    separate_increments,
     stage_increments,
     stage_residuals,
 )
 from adamslite.integrators.stepping.outcome import OVERFLOW
-from adamslite.native.translate import native
+from adamslite.native.translate import maximum, native, rare
 
 # Newton stops when the estimated remaining error is this share of ERROR.
 CORRECTOR_SHARE = 0.002
@@ -37,6 +38,9 @@ AGED = 0.8
 STALLED, LEAST_REST = 0.99, 0.01
 # Increments of this many times the round-off of positions, over the step, cannot be improved.
 NOISE = 10.0
+# With new matrices at every iterate increments that shrink by less than the first are round-off,
+# which a posture near the loss of rank amplifies, where they are below the second share of ERROR.
+NOISY, NOISE_SHARE = 0.3, 0.2
 # Factors made for a step that differs by this share serve.
 SAME_STEP = 1e-6
 
@@ -45,7 +49,7 @@ SAME_STEP = 1e-6
 def ready(P: Problem, L: Plan, C: Control, turn: int) -> bool:
     """Derivatives and factors for the present step and iteration."""
     if not C.known or renews(P, turn, C.age < KEEP_STEPS or turn > 0):
-        radau_jacobian(P, L, C.h)
+        radau_jacobian(P, 2, C.h)
         C.known, C.fresh, C.age, C.factored, C.made = True, True, 0, 0.0, turn
     if not abs(C.h - C.factored) <= SAME_STEP * C.h:
         C.factored = C.h if radau_matrices(P, L, C.h) else 0.0
@@ -55,6 +59,8 @@ def ready(P: Problem, L: Plan, C: Control, turn: int) -> bool:
 @native
 def correct(P: Problem, L: Plan, C: Control) -> bool:
     """Newton from the prediction; True when converged."""
+    if C.separate:
+        return correct_separately(P, L, C)
     h, last, felt, small = C.h, 0.0, 0.0, False
     tolerance, most = CORRECTOR_SHARE * P.settings.error, P.settings.max_it
     C.rate, C.theta, C.made = max(C.rate, LEAST_RATE) ** AGED, 0.0, -1
@@ -88,6 +94,43 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
                 return True
             C.known = turn == 0 or felt <= SHRINKING * before
         last = size
+    return False
+
+
+@native
+@rare
+def correct_separately(P: Problem, L: Plan, C: Control) -> bool:
+    """Newton in turns with one matrix for all stages and with new ones of each; True when
+    converged.
+
+    No matrix serves stages on both sides of a posture in which constraints lose rank: what the
+    first leaves of it the second removes, which in turn couples inertia of the stages too loosely.
+    """
+    h, last, size = C.h, 0.0, 0.0
+    C.theta, C.known = 1.0, False
+    if C.factored != h:
+        radau_jacobian(P, 2, h)
+        if not radau_matrices(P, L, h):
+            return False
+    C.factored = 0.0
+    for turn in range(P.settings.max_it):
+        C.turns, last = turn + 1, size
+        stage_residuals(P, h)
+        stage_increments(P, L)
+        size = move_stages(P, h)
+        stage_residuals(P, h)
+        if not separate_increments(P, L, h):
+            return False
+        size = maximum(size, move_stages(P, h))
+        P.count.newton += 1
+        rate = size / last if turn > 0 else 1.0
+        share = CORRECTOR_SHARE
+        if turn > 0 and rate > NOISY:
+            share = NOISE_SHARE
+        if min(1.0, rate / max(LEAST_REST, 1.0 - rate)) * size <= share * P.settings.error:
+            return True
+        if not size < OVERFLOW or (turn > 1 and rate > 1.0):
+            return False
     return False
 
 

@@ -126,7 +126,7 @@ def switch_at_start(P: Problem, L: Plan, C: Control) -> int:
     """A branch changes just after the start of the step: change it there and restart, or end a
     step just behind where it changes.
     """
-    C.passed, C.lengthened = 0.0, 0
+    C.passed, C.lengthened, P.undoing.undoable = 0.0, 0, False
     restore_state(P, C)
     if change_here(P, L, C.t):
         restart(P, L, C)
@@ -140,6 +140,8 @@ def switch_at_start(P: Problem, L: Plan, C: Control) -> int:
 @seldom
 def pass_on(P: Problem, L: Plan, C: Control) -> int:
     """After an event: the prediction continues when nothing jumped, else it restarts."""
+    # A step that is taken back must not lead across an event.
+    P.undoing.undoable = False
     if not pass_event(P, L, C.t):
         return NEWTON_FAILED
     C.known = False

@@ -25,7 +25,7 @@ from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins
 from adamslite.integrators.events.stops import horizon
 from adamslite.integrators.failure_notes import note_trouble, wildest
 from adamslite.integrators.implicit.formulation import equations_kept
-from adamslite.integrators.implicit.step_size import first_step, retry_factor
+from adamslite.integrators.implicit.step_size import CUTS, first_step, retry_factor
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import track
 from adamslite.integrators.radau.control import ORIGIN, Control
@@ -44,6 +44,7 @@ from adamslite.integrators.radau.stages import keep_stages, put_stage
 from adamslite.integrators.radau.state import predict, put_end, record, restore_state
 from adamslite.integrators.radau.step_size import choose_step, limit_step, step_factor
 from adamslite.integrators.records import note_violation
+from adamslite.integrators.step_back import before_trouble, make_undoable
 from adamslite.integrators.stepping.control import NOBODY, RUNNING
 from adamslite.integrators.stepping.outcome import (
     ALMOST,
@@ -124,6 +125,8 @@ def advance(P: Problem, L: Plan, C: Control) -> int:
         return outcome
     limit_step(P, C)
     if too_small(P, C) or crawls(P, C.h):
+        if land_elsewhere(P, C):
+            return RUNNING
         restore_state(P, C)
         return why_stuck(P, L, C)
     note_try(P, C, ORDER)
@@ -159,6 +162,7 @@ def accept(P: Problem, L: Plan, C: Control, error: float) -> int:
     P.count.steps += 1
     # The formula is of order 5, its estimate of order 3.
     P.report.spent += error * (error * P.settings.error) ** 0.5
+    make_undoable(P, C.t, h, C.retries == 0)
     t = end_of_step(P, C, horizon(P))
     if row < P.times.size and abs(P.times[row] - t) < ALMOST * h:
         t = P.times[row]
@@ -205,14 +209,34 @@ def after_failure(P: Problem, C: Control) -> int:
     """Newton failed: new derivatives when they were old, else another step."""
     P.count.failures += 1
     old = not C.fresh and C.known
-    C.known, C.factored, C.rate, C.cautious = False, 0.0, 1.0, True
+    C.rate, C.cautious = 1.0, True
     if not old and not let_go(P):
+        if P.sizes.holonomic > 0 and not C.separate:
+            C.separate = True
+            return RUNNING
         C.retries += 1
+        P.undoing.trouble += 1.0
         C.blamed = wildest(P)
         put_stage(P, 3, C.h)
         note_trouble(P, equations_kept(P), C.turns)
-        C.h *= cut(P, C, retry_factor(C))
+        if C.retries != CUTS or not land_elsewhere(P, C):
+            C.h *= cut(P, C, retry_factor(C))
+    C.known, C.factored = False, 0.0
     return RUNNING
+
+
+@native
+@seldom
+def land_elsewhere(P: Problem, C: Control) -> bool:
+    """Back to before the trouble, with another step; False when that was tried enough."""
+    share = before_trouble(P, C.t + C.h)
+    if share == 0.0:
+        return False
+    C.known, C.factored, C.rate, C.cautious, C.separate = False, 0.0, 1.0, True, False
+    C.retries, C.fresh, C.norm, C.last_size = 0, False, 0.0, 0.0
+    C.h *= share
+    restore_state(P, C)
+    return True
 
 
 @native

@@ -60,7 +60,7 @@ from adamslite.integrators.radau.coefficients import (
     TO_STAGES,
 )
 from adamslite.integrators.radau.control import BEFORE, ORIGIN, RATES, Y_ROWS, Z_ROWS, Control
-from adamslite.native.translate import Reals, copy, maximum, native
+from adamslite.native.translate import Reals, copy, maximum, native, rare
 
 
 @native
@@ -72,12 +72,12 @@ def stage_z(P: Problem, row: int) -> int:
 
 
 @native
-def radau_jacobian(P: Problem, L: Plan, h: float) -> None:
-    """J_0, J_1, J_2 at the middle stage, one after the other in ``P.parts``."""
+def radau_jacobian(P: Problem, stage: int, h: float) -> None:
+    """J_0, J_1, J_2 at a stage, one after the other in ``P.parts``."""
     n, size, c, K = P.sizes.n, P.J.size, P.coef, P.parts
     w = 2 * n + P.sizes.ns
-    y, d = P.history[2 * w :], P.history[(RATES + 2) * w :]
-    put_stage(P, 2, h)
+    y, d = P.history[stage * w :], P.history[(RATES + stage) * w :]
+    put_stage(P, stage, h)
     for part in range(3):
         for k in range(5):
             c[k] = 0.0
@@ -118,6 +118,12 @@ def radau_matrices(P: Problem, L: Plan, h: float) -> bool:
     P.count.factorizations += 2
     if not factor_complex(L, P.LC, P.pivots_c, P.work):
         return False
+    return real_matrix(P, L, h)
+
+
+@native
+def real_matrix(P: Problem, L: Plan, h: float) -> bool:
+    """Factor J(c) for the real eigenvalue."""
     x = P.tableau[REAL] / h
     add_up(P, 1.0, x, x * x, P.LV)
     return factor(L, P.LV, P.pivots, P.work)
@@ -220,6 +226,25 @@ def stage_increments(P: Problem, L: Plan) -> None:
         for stage in range(3):
             o = TO_STAGES + 3 * stage
             R[stage * nz + k] = X[o] * a + X[o + 1] * b + X[o + 2] * c
+
+
+@native
+@rare
+def separate_increments(P: Problem, L: Plan, h: float) -> bool:
+    """Increments of each stage by its own derivatives in the place of the residuals; those of the
+    middle stage, and their factors, are left.
+    """
+    nz, R = P.sizes.nz, P.history[stage_z(P, Z_ROWS) :]
+    for turn in range(3):
+        stage = 3 - 2 * turn if turn < 2 else 2
+        radau_jacobian(P, stage, h)
+        if not real_matrix(P, L, h):
+            return False
+        copy(P.F, R[(stage - 1) * nz :], nz)
+        solve(L, P.LV, P.pivots, P.F, P.x, P.work)
+        copy(R[(stage - 1) * nz :], P.F, nz)
+    P.count.factorizations += 3
+    return True
 
 
 @native

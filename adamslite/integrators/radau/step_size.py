@@ -54,6 +54,7 @@ def choose_step(P: Problem, C: Control, error: float) -> None:
         factor = min(factor, 1.0)
     C.last_size, C.last_norm = h, max(LEAST_REMEMBERED, error)
     C.retries, C.fresh, C.cautious, C.norm = 0, False, False, 0.0
+    C.separate = False
     C.age += 1
     if C.theta > QUICK:
         C.known = False
