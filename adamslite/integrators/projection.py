@@ -109,8 +109,9 @@ def move(P: Problem, q: Reals) -> None:
 
 @native
 def sensitivity(P: Problem, L: Plan) -> float:
-    """The largest answer of positions when each constraint row is off by a value between 0.5 and
-    1.5 (no pattern that a mechanism could have): grows like 1/d towards a posture of lost rank.
+    """The largest answer of positions, against max(1, |value|), when each constraint row is off by
+    a value between 0.5 and 1.5 (no pattern that a mechanism could have): grows like 1/d towards
+    a posture of lost rank.
     """
     n, top = P.sizes.n, 0.0
     for i in range(P.sizes.nz):
@@ -121,6 +122,6 @@ def sensitivity(P: Problem, L: Plan) -> float:
         P.F[P.dead[k]] = 0.0
     solve(L, P.LA, P.pivots_a, P.F, P.x, P.work)
     for i in range(n):
-        if exceeds(abs(P.F[i]), top):
-            top = abs(P.F[i])
+        if exceeds(abs(P.F[i]), top * max(1.0, abs(P.q[i]))):
+            top = abs(P.F[i]) / max(1.0, abs(P.q[i]))
     return top

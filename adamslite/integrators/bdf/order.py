@@ -60,7 +60,7 @@ def local_error(P: Problem, C: Control) -> float:
     share = CUBIC_PAST if C.order == 3 and C.h_last == 0.0 else 1.0
     norm = share * size / ((C.order + 1.0) * P.settings.error)
     if norm > 1.0:
-        norm = beyond_round_off(P, norm, P.q, C.cu)
+        norm = beyond_round_off(P, norm, 0.0, P.q, C.cu)
     P.report.error = norm
     return norm
 

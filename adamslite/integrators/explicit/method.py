@@ -113,6 +113,7 @@ def begin(P: Problem, L: Plan, C: Control) -> int:
     """Rates at the start, first step, first record."""
     C[:] = 0
     P.undoing[:] = 0
+    P.report.floor = 0.0
     C.t, C.last_error, C.blamed = P.settings.t, LEAST_ERROR, NOBODY
     choose_kind(P, C)
     start_state(P, C)

@@ -31,6 +31,8 @@ CLOSER, HALF = 0.25, 0.5
 FAR = 1.0
 # Where steps below this share of HMAX are pulled so far this often, shorter ones will not help.
 TINY, MOST_PULLED = 1e-6, 20
+# Errors of velocities by round-off below this decide no branch.
+FIRM = 1e-11
 EPSILON = 2.220446049250313e-16
 
 
@@ -137,10 +139,13 @@ def is_loose(P: Problem, L: Plan, C: Control) -> bool:
 
     With the lever d of :mod:`adamslite.integrators.step_back`, 1 in the best posture so far,
     round-off e is an error e/d^2 of velocities: more than ERROR. Steps that become short walk into
-    such places, and leave them on any branch.
+    such places, and leave them on any branch.  Below FIRM it decides no branch, and is noted.
     """
     if P.sizes.m == 0:
         return False
     now = sensitivity(P, L)
     C.firmest = min(C.firmest, now) if C.firmest > 0.0 else now
-    return EPSILON * now * now > P.settings.error * C.firmest * C.firmest
+    noise, most = EPSILON * (now / C.firmest) ** 2.0, max(P.settings.error, FIRM)
+    if noise > P.settings.error and noise <= most:
+        P.report.floor = max(P.report.floor, noise)
+    return noise > most

@@ -12,8 +12,9 @@ LOOSEST = 1e-3
 # Round-off of positions as a share of the largest; what counts instead of an error of that size:
 # steps grow, because round-off over the step falls.
 ROUND_OFF, CALM = 2e-15, 0.01
-# So many ERRORs at most: the round-off of tiny steps would pass for any error.
-MOST = 4.0
+# So many ERRORs at most: the round-off of tiny steps would pass for any error.  Where a shorter
+# step has more than this share of the error of the longer one, up to so much whatever ERROR is.
+MOST, KEPT, TINY = 4.0, 0.5, 1e-10
 
 
 @native
@@ -46,12 +47,16 @@ def most_wrong(top: float, d: Reals, y: Reals, n: int, ns: int, si2: bool) -> in
 
 @native
 @seldom
-def beyond_round_off(P: Problem, norm: float, q: Reals, cu: float) -> float:
+def beyond_round_off(P: Problem, norm: float, last: float, q: Reals, cu: float) -> float:
     """The error ``norm`` of a step over ERROR; CALM where it is below the round-off of positions
-    ``q`` that constraints hand on to velocities, of which a shorter step has more.
+    ``q`` that constraints hand on to velocities, of which a shorter step has more.  ``last``: that
+    of the same step when it was longer, 0 for none.
     """
     noise = ROUND_OFF * max(1.0, largest_of(q, P.sizes.n)) * cu
-    if P.sizes.holonomic == 0 or norm > MOST or not norm * P.settings.error <= noise:
+    most = MOST
+    if last > 0.0 and norm > KEPT * last:
+        most = max(MOST, TINY / P.settings.error)
+    if P.sizes.holonomic == 0 or norm > most or not norm * P.settings.error <= noise:
         return norm
     P.report.floor = max(P.report.floor, norm * P.settings.error)
     return CALM

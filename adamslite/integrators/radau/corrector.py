@@ -106,7 +106,8 @@ def correct_separately(P: Problem, L: Plan, C: Control) -> bool:
     No matrix serves stages on both sides of a posture in which constraints lose rank: what the
     first leaves of it the second removes, which in turn couples inertia of the stages too loosely.
     """
-    h, last, size = C.h, 0.0, 0.0
+    h, last, size, tolerance = C.h, 0.0, 0.0, CORRECTOR_SHARE * P.settings.error
+    noise = max(NOISE_SHARE * P.settings.error, NOISE * round_off(P, C))
     C.theta, C.known = 1.0, False
     if C.factored != h:
         radau_jacobian(P, 2, h)
@@ -124,10 +125,9 @@ def correct_separately(P: Problem, L: Plan, C: Control) -> bool:
         size = maximum(size, move_stages(P, h))
         P.count.newton += 1
         rate = size / last if turn > 0 else 1.0
-        share = CORRECTOR_SHARE
-        if turn > 0 and rate > NOISY:
-            share = NOISE_SHARE
-        if min(1.0, rate / max(LEAST_REST, 1.0 - rate)) * size <= share * P.settings.error:
+        if min(1.0, rate / max(LEAST_REST, 1.0 - rate)) * size <= tolerance:
+            return True
+        if turn > 0 and rate > NOISY and size <= noise:
             return True
         if not size < OVERFLOW or (turn > 1 and rate > 1.0):
             return False

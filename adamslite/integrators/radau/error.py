@@ -44,7 +44,9 @@ def local_error(P: Problem, L: Plan, C: Control) -> float:
             base[i] += error[i]
         norm = newton_error(P, L, C, base, error)
     if norm > 1.0:
-        norm = beyond_round_off(P, norm, P.history[ORIGIN * w :], P.tableau[REAL] / C.h)
+        norm = beyond_round_off(P, norm, C.norm, P.history[ORIGIN * w :], P.tableau[REAL] / C.h)
+        # A longer step has less of it.
+        C.cautious = norm > 1.0
     P.report.error = norm
     return norm
 
