@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 import random
+from pathlib import Path
 
 import mpmath as mp
 import pytest
 from graph_values import value
 
-from adamslite.symbolic import graph, slopes, structure
+from adamslite.symbolic import by_sympy, graph, slopes_by_sympy, structure
 from adamslite.symbolic.algebra import And, Eq, Not, Or, atan2, chosen, cos, exp, log, sin, sqrt
 from adamslite.symbolic.derivatives import Derivatives, along
 from adamslite.symbolic.graph import FALSE, NAN, ONE, TRUE, ZERO, node, number, symbol
@@ -17,14 +18,20 @@ from adamslite.symbolic.graph import FALSE, NAN, ONE, TRUE, ZERO, node, number, 
 x, y = symbol("x"), symbol("y")
 
 
-@pytest.mark.parametrize("name", slopes.SLOPES)
+def test_slopes_are_what_sympy_finds() -> None:
+    """The kept module is the one that sympy writes, but for its form."""
+    kept = Path(slopes_by_sympy.__file__).read_text(encoding="utf-8")
+    assert "".join(kept.split()) == "".join(by_sympy.slopes_text().split())
+
+
+@pytest.mark.parametrize("name", slopes_by_sympy.SLOPES)
 def test_slopes_of_functions(name: str) -> None:
     """Against differences at 60 digits, in (0.1, 0.9)."""
     rng, symbols = random.Random(name), [x, y] if name in ("atan2", "**") else [x]
     top = graph.made(name, *symbols)
     with mp.workdps(60):
         at = {each: mp.mpf(rng.uniform(0.1, 0.9)) for each in symbols}
-        for each, slope in zip(symbols, slopes.SLOPES[name](*symbols), strict=True):
+        for each, slope in zip(symbols, slopes_by_sympy.SLOPES[name](*symbols), strict=True):
             found = mp.diff(lambda u, each=each: value(top, at | {each: u}, mp), at[each])
             assert abs(value(slope, at, mp) - found) < mp.mpf("1e-18")
 

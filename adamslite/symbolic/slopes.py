@@ -4,30 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any
 
-from adamslite.symbolic.algebra import cos, cosh, exp, log, sin, sinh, sqrt, tan, tanh
 from adamslite.symbolic.graph import ONE, Node, add, div, made, neg, node, number
+from adamslite.symbolic.slopes_by_sympy import SLOPES
 
 MINUS_ONE = number(-1.0)
 # Orders of the derivatives of tables: cubic pieces, straight from curve to curve.
 CUBIC, STRAIGHT = 3, 1
-#: Of functions of numbers, by each of their arguments.
-SLOPES: dict[str, Any] = {
-    "sin": lambda x: (cos(x),),
-    "cos": lambda x: (-sin(x),),
-    "tan": lambda x: (tan(x) ** 2 + 1,),
-    "asin": lambda x: (1 / sqrt(1 - x**2),),
-    "acos": lambda x: (-1 / sqrt(1 - x**2),),
-    "atan": lambda x: (1 / (x**2 + 1),),
-    "sinh": lambda x: (cosh(x),),
-    "cosh": lambda x: (sinh(x),),
-    "tanh": lambda x: (1 - tanh(x) ** 2,),
-    "exp": lambda x: (exp(x),),
-    "log": lambda x: (1 / x,),
-    "atan2": lambda y, x: (x / (x**2 + y**2), -y / (x**2 + y**2)),
-    "**": lambda x, y: (x ** (y - 1) * y, x**y * log(x)),
-}
+
 
 Slopes = list[tuple[Node, Callable[[], Node]]]
 
@@ -37,10 +21,10 @@ def slopes(top: Node) -> Slopes:
     rule = RULES.get(top.kind)
     if rule is not None:
         return rule(top)
-    return [(each, partial(_of_function, top, n)) for n, each in enumerate(top.args)]
+    return [(each, partial(_by_sympy, top, n)) for n, each in enumerate(top.args)]
 
 
-def _of_function(top: Node, n: int) -> Node:
+def _by_sympy(top: Node, n: int) -> Node:
     rule: Callable[..., tuple[Node, ...]] = SLOPES[top.kind]
     return node(rule(*top.args)[n])
 
