@@ -8,9 +8,9 @@ from pathlib import Path
 from adamslite.cli.main import command_parsers
 from adamslite.manual.api import python_names
 from adamslite.manual.commands import commands
-from adamslite.manual.formats import result_formats
 from adamslite.manual.functions import deck_functions
 from adamslite.manual.integrators import integrators
+from adamslite.manual.lookup import result_formats
 from adamslite.manual.messages import messages
 from adamslite.manual.statements import statements
 

@@ -13,7 +13,7 @@ from fakes import fall
 
 from adamslite.cli.main import main
 from adamslite.errors import FormatError, UsageError
-from adamslite.manual.formats import result_formats
+from adamslite.manual.lookup import result_formats
 from adamslite.outputs.whole_files import whole_file
 from adamslite.results import formats
 from adamslite.results.outcomes import Outcome

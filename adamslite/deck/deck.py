@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from functools import cached_property
+from itertools import count
 from pathlib import Path, PureWindowsPath
 from typing import TYPE_CHECKING, Any, overload
 
@@ -20,8 +21,9 @@ from adamslite.deck.counted_turns import counted
 from adamslite.deck.element_switch import Switch
 from adamslite.deck.redefinition import Redefinition, settled
 from adamslite.deck.user_bindings import Bindings
-from adamslite.language.expression import Num, rebuild
-from adamslite.language.statement import STATEMENTS
+from adamslite.language.expression import Num, calls, rebuild
+from adamslite.language.function import FUNCTIONS
+from adamslite.language.statement import STATEMENTS, expressions
 
 if TYPE_CHECKING:
     from adamslite.deck.names import Names
@@ -94,8 +96,6 @@ class Deck:
         self.delays: dict[Call, Key] = {}
         self.statements: tuple[Statement, ...] = brought
         if names.delays:  # few decks have any
-            from adamslite.deck.delayed import delayed, watched
-
             self.delays = delayed(brought, names)
             self.statements += tuple(watched(call, key) for call, key in self.delays.items())
         self._acts_for = {
@@ -327,3 +327,20 @@ def _with_constants(statement: Statement, constants: dict[str, float]) -> Statem
         if argument.kind == "expression" and getattr(statement, field) is not None
     }
     return replace(statement, **changed) if changed else statement
+
+
+def delayed(statements: Iterable[Statement], names: Names) -> dict[Call, Key]:
+    """Different calls of DELAY, each with a name that no VARIABLE of the deck has."""
+    taken = names.ids.get("VARIABLE", {})
+    names_of_past = [name for name, function in FUNCTIONS.items() if function.takes_past]
+    found = (
+        call for each in statements for node in expressions(each)
+        for call in calls(node, *names_of_past)
+    )  # fmt: skip
+    free = (name for n in count(1) if (name := f"DELAY_{n}") not in taken)
+    return dict(zip(dict.fromkeys(found), free, strict=False))
+
+
+def watched(call: Call, key: Key) -> Statement:
+    """The VARIABLE whose results are the expression that a call delays."""
+    return STATEMENTS["VARIABLE"](id=key, function=call.args[0])

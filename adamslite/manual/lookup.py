@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from argparse import ArgumentParser
 from collections.abc import Callable, Iterable, Mapping
 from typing import NamedTuple
@@ -19,20 +20,44 @@ from adamslite.language.not_supported import STATEMENTS as MISSING_STATEMENTS
 from adamslite.language.statement import STATEMENTS
 from adamslite.manual.api import NAMES, python_name
 from adamslite.manual.commands import command
-from adamslite.manual.formats import result_formats
 from adamslite.manual.functions import function
 from adamslite.manual.integrators import integrator_page, integrators
-from adamslite.manual.markdown import HEAD, heading
+from adamslite.manual.markdown import HEAD, heading, markdown, table
 from adamslite.manual.messages import message
 from adamslite.manual.statements import argument_names, argument_page, statement, title_of
 from adamslite.notation import FUNCTIONS as IN_PYTHON
+from adamslite.results import run_texts
+from adamslite.results.formats import Format, formats
 from adamslite.results.outcomes import Outcome
 
+INTRO = """# Formats of result files
+
+The suffix of a name decides: `adamslite solve DECK -o NAME.csv`. What can be read can be compared:
+`adamslite diff A B`. A failed write leaves an earlier file as it was.
+"""
 LISTED = "`adamslite help` lists them"
-#: Pages of registers that are looked up as a whole.
-TOPICS = {"INTEGRATORS": integrators, "FORMATS": result_formats}
 MISSING = MISSING_STATEMENTS | MISSING_FUNCTIONS | MISSING_COMMANDS
 Commands = Mapping[str, ArgumentParser]
+
+
+def result_formats() -> str:
+    """The page of the formats of result files: docs/reference/formats.md."""
+    rows = [
+        (f"`{suffix}`", each.what, "written, read" if each.read else "written")
+        for suffix, each in sorted(formats().items())
+    ]
+    parts = [HEAD, INTRO, table(("suffix", "content", "can be"), rows)]
+    parts.append(f"## Texts of a run\n\n{markdown(run_texts.__doc__)}")
+    return "\n".join([*parts, *(_layout(*each) for each in sorted(formats().items()))])
+
+
+def _layout(suffix: str, format: Format) -> str:
+    """What such a file holds, in detail: the documentation of its module."""
+    return f"## `{suffix}`\n\n{markdown(sys.modules[format.write.__module__].__doc__)}"
+
+
+#: Pages of registers that are looked up as a whole.
+TOPICS = {"INTEGRATORS": integrators, "FORMATS": result_formats}
 
 
 class Chapter(NamedTuple):

@@ -6,7 +6,7 @@ amplifies or shifts its errors; a part of the time stands for all of it.  The er
 a share of the range that this channel has in the run:
 
     x, y, z of a body         from the least to the largest
-    attitude of a part        the largest turn, a radian at most
+    attitude of a part        the largest turn
     DIFF, VARIABLE, REQUEST   the same
     markers of an element     of x, y, z and turn of I seen from J, which is what it feels
 

@@ -24,7 +24,7 @@ from adamslite.integrators.audit.balance import audit
 from adamslite.integrators.bdf.control import Control
 from adamslite.integrators.bdf.corrector import correct
 from adamslite.integrators.bdf.dense_output import record
-from adamslite.integrators.bdf.differences import extend_history, rebase
+from adamslite.integrators.bdf.differences import extend_history, extrapolate, gamma, rebase
 from adamslite.integrators.bdf.events import end_at_crossing, pass_on, passes_crossing
 from adamslite.integrators.bdf.order import (
     choose_order,
@@ -33,7 +33,6 @@ from adamslite.integrators.bdf.order import (
     watch_order,
 )
 from adamslite.integrators.bdf.order_cap import start_watch
-from adamslite.integrators.bdf.prediction import predict
 from adamslite.integrators.bdf.recovery import (
     after_failure,
     after_rejection,
@@ -61,7 +60,7 @@ from adamslite.integrators.events.stops import (
 from adamslite.integrators.implicit.step_size import first_step
 from adamslite.integrators.implicit.tolerance import is_allowed
 from adamslite.integrators.linalg.plan import Plan
-from adamslite.integrators.motion_equations import track
+from adamslite.integrators.motion_equations import put_time, track
 from adamslite.integrators.records import note_violation
 from adamslite.integrators.step_back import make_undoable
 from adamslite.integrators.stepping.control import NOBODY, RUNNING
@@ -84,6 +83,8 @@ from adamslite.native.translate import native, rare
 
 # Steps that differ by less than this share are equal.
 EQUAL_STEPS = 1e-9
+# Multipliers and variables are predicted by a straight line, no further than this many steps.
+FAR = 2.0
 
 
 @native
@@ -216,3 +217,28 @@ def move_on(P: Problem, C: Control) -> None:
     for i in range(P.z.size):
         P.pz[i] = P.rz[i]
     keep_solution(P)
+
+
+@native
+def predict(P: Problem, C: Control) -> None:
+    """Predicted values of all unknowns at the end of the step; of q only the change is kept.
+
+    In ``P.trial``: y_p, psi, q', and the correction e of q, nothing so far.
+    """
+    n, ns, w = P.sizes.n, P.sizes.ns, C.width
+    first = P.sizes.m + P.sizes.nv
+    yp, e = P.trial[0:], P.trial[2 * w + n :]
+    C.cu = gamma(C.order) / C.h
+    extrapolate(P.history, w, C.order, yp, P.trial[w:])
+    for i in range(n, w):
+        yp[i] += P.history[i]
+    for i in range(n):
+        P.q[i], e[i] = P.history[i] + yp[i], 0.0
+    for i in range(ns):
+        P.z[first + i] = yp[2 * n + i]
+    ahead = C.h / C.h_last if C.h_last > 0.0 else 0.0
+    for i in range(first):
+        P.z[i] = P.rz[i] + min(ahead, FAR) * (P.rz[i] - P.pz[i])
+    for i in range(P.mu.size):
+        P.mu[i] = 0.0
+    put_time(P, C.t + C.h)
