@@ -333,3 +333,15 @@ def test_a_sum_beyond_the_motion_has_no_number():
     assert "a smaller ERROR than 0.001 keeps" in beyond
     (within,) = _added_up(Settings(error=1e-3), counts, 0.5, history)
     assert "50.00% of the largest travel" in within
+
+
+def test_numbers_of_the_integrator_are_not_compared() -> None:
+    """HSIZE is another one in every run; a vibration of 1 Hz, exact to 1e-6, is not doubted."""
+    deck = (
+        GROUND + "POINT_MASS/2, MASS=1, CM=2, QG=1,0,0\nMARKER/2, POINT_MASS=2\n"
+        "VFORCE/1, I=2, J_PART=1, FX=-39.478*DX(2)\\FY=0\\FZ=0\n"
+        "REQUEST/1, F1=DX(2)\\F2=HSIZE()\\F3=2*ORDER()\nEND\n"
+    )
+    results = done(deck, 1.0, 7, integrator="RADAU", error=1e-7)
+    assert np.abs(results["REQUEST/1.F1"] - np.cos(np.sqrt(39.478) * results.time)).max() < 1e-6
+    assert np.ptp(results["REQUEST/1.F2"]) > 0.001 and "accuracy" not in results.meta

@@ -72,7 +72,7 @@ def test_a_second_run_compiles_nothing_and_a_changed_source_is_seen(package, wri
     # The text of the check is kept by now, so that less is imported.
     some, fresh = counts(again)
     assert fresh == 0 and again.splitlines()[:-1] == first.splitlines()[:-1]
-    replaced(package / "api" / "contents.py", "degree", "DEGREE")
+    replaced(package / "api" / "checks.py", "'degree'", "'DEGREE'")
     third = run(package, LOADED, PYTHONDONTWRITEBYTECODE=written)
     assert "3 DEGREEs of freedom" in third and counts(third)[1] > 100
 
@@ -99,7 +99,7 @@ def test_tracebacks_and_sources_are_those_of_the_files(package) -> None:
         (package.parent.parent / "rest.adm").write_text(DECK + f"! {_}\n")  # checked anew
         printed = run(package, code)
         assert "several or one + 's'" in printed
-        assert f"def many( {package / 'api' / 'contents.py'} adamslite.api" in printed
+        assert f"def many( {package / 'api' / 'checks.py'} adamslite.api" in printed
 
 
 def test_commands_have_entries_of_their_own(cache, monkeypatch) -> None:

@@ -253,10 +253,12 @@ END
 
 @pytest.mark.parametrize("error", [1e10, 1e300])
 def test_a_step_is_not_shortened_for_ever(error: float) -> None:
-    """Each try was shorter by a millionth, and none was accepted, rejected or failed."""
+    """Each try was shorter by a millionth, and none was accepted, rejected or failed.  Of what such
+    an ERROR accepts a value may be infinite.
+    """
     limits = {"max_steps": 3000, "cpu_limit": 60}
     results = ended_early(WILD_TOP, 0.1, 3, integrator="ABAM", error=error, **limits)
-    assert results.outcome is Outcome.STEP_LIMIT, results.message
+    assert results.outcome in (Outcome.STEP_LIMIT, Outcome.NOT_FINITE), results.message
 
 
 @pytest.mark.parametrize("method", ("GSTIFF", "HHT", "RADAU", "ABAM"))

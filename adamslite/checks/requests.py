@@ -10,10 +10,10 @@ from adamslite.deck.deck import Deck
 from adamslite.deck.statement_diagnostics import diagnose, diagnose_inside
 from adamslite.elements.mrequest import ALL, KINDS, Mrequest
 from adamslite.elements.request import Request
-from adamslite.functions.integration import NUMBERS
 from adamslite.language.diagnostics import Diagnostic
 from adamslite.language.expression import calls
 from adamslite.language.likeness import Guesses
+from adamslite.language.method import NUMBERS
 
 
 def requests(deck: Deck) -> Iterator[Diagnostic]:

@@ -3,16 +3,9 @@
 from __future__ import annotations
 
 from adamslite.language.function import function
+from adamslite.language.method import NUMBERS
 from adamslite.symbolic.scope import Scope
 from adamslite.symbolic.types import Expr
-
-NUMBERS = {
-    "HSIZE": ("Size of the step that the output time lies in; 0 at the start.", "time"),
-    "ORDER": ("Order of the formula of the step that the output time lies in.", "none"),
-    "NJAC": ("How many Jacobians this analysis has evaluated up to the output time.", "none"),
-    "NRHS": ("How many residuals this analysis has evaluated up to the output time.", "none"),
-}
-"""What each is and its unit, in the order in which the workspace has them, behind time and MODE."""
 
 
 def _number(name: str, place: int) -> None:

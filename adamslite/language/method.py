@@ -46,6 +46,14 @@ VARIABLE, FIXED, FIXED_BY_HINIT = "variable", "fixed", "fixed by HINIT"
 CONSTRAINTS, ROTATIONS, STATE_JUMPS = "constraints", "rotations", "jumps with the state"
 UNUSED = "its formula does not use it"
 
+NUMBERS = {
+    "HSIZE": ("Size of the step that the output time lies in; 0 at the start.", "time"),
+    "ORDER": ("Order of the formula of the step that the output time lies in.", "none"),
+    "NJAC": ("How many Jacobians this analysis has evaluated up to the output time.", "none"),
+    "NRHS": ("How many residuals this analysis has evaluated up to the output time.", "none"),
+}
+"""What each is and its unit, in the order in which the workspace has them, behind time and MODE."""
+
 
 class Settings(Protocol):
     """What a method may ask of the settings of a run: arguments of INTEGRATOR, or their defaults;

@@ -7,7 +7,7 @@ a share of the range that this channel has in the run:
 
     x, y, z of a body         from the least to the largest
     attitude of a part        the largest turn
-    DIFF, VARIABLE, REQUEST   the same
+    DIFF, VARIABLE, REQUEST   the same, but for numbers of the integrator (HSIZE)
     markers of an element     of x, y, z and turn of I seen from J, which is what it feels
 
 What stays within ERROR (DIFF states: ERROR of their size) or the gaps of constraints is at rest.
@@ -31,10 +31,12 @@ from adamslite.analyses.findings.standstill import (
     ROUNDING,
     Frame,
     Parts,
+    energy_apart,
     largest_travel,
 )
 from adamslite.integrators import contract
-from adamslite.language.method import FIXED, FIXED_BY_HINIT
+from adamslite.language.expression import calls
+from adamslite.language.method import FIXED, FIXED_BY_HINIT, NUMBERS
 from adamslite.results.outcomes import Outcome
 
 if TYPE_CHECKING:
@@ -165,7 +167,7 @@ def accuracy_notes(
         told += _of_method(settings)
         rough = settings.formula.damping and report.rough_steps > OFTEN * steps
         if rough and not (
-            found and second and _energy_apart(system.model, history, second) < CARRIED
+            found and second and energy_apart(system.model, history, second) < CARRIED
         ):
             told.append(
                 f"accelerations changed by more than half in {report.rough_steps} of {steps} "
@@ -252,9 +254,15 @@ def _channels(
     bodies = [each.label for each in model.moving if f"{each.label}.x" in column]
     for label in bodies:
         yield from _apart(label, one.of_body(label), other.of_body(label), error, error)
+    ours = {
+        f"{each.label}.{name}"
+        for each in model.deck.of("REQUEST") if not each.called.isdisjoint(NUMBERS)
+        for name, node in zip(each.result_names, each.outputs(model), strict=True)
+        if any(calls(node, *NUMBERS))
+    }  # fmt: skip
     for name, k in column.items():
         kind, _, _ = name.partition("/")
-        if kind in ("DIFF", "VARIABLE", "REQUEST", "MREQUEST"):
+        if kind in ("DIFF", "VARIABLE", "REQUEST", "MREQUEST") and name not in ours:
             x, off = values[0][:, k], np.abs(values[0][:, k] - values[1][:, k])
             size = float(np.abs(x).max(initial=0.0))
             size = size if kind == "DIFF" else max(size, 1.0)
@@ -344,21 +352,6 @@ def _of_method(settings: Settings) -> Iterator[str]:
         )
     elif settings.formula.order <= 2:
         yield "the formula is of order 2: GSTIFF, RADAU or RKF45 get further with fewer steps"
-
-
-def _energy_apart(model: Model, history: History, second: Results) -> float:
-    """The largest kinetic energy of what lies between two runs, over the largest of the first."""
-    run, weight = history.whole, dict[str, float]()
-    for body in model.bodies:
-        turning = float(np.abs(body.inertia).max(initial=0.0))
-        for axis in "xyz":
-            weight[f"{body.statement.label}.v{axis}"] = body.mass
-            weight[f"{body.statement.label}.w{axis}"] = turning
-    weights = np.array([weight.get(name, 0.0) for name in run.names])
-    rows = min(run.count, len(second.time))
-    apart = run.values[:rows] - np.asarray(second.values)[:rows]
-    most = float((np.nan_to_num(run.values[:rows]) ** 2 @ weights).max(initial=0.0))
-    return float((np.nan_to_num(apart) ** 2 @ weights).max(initial=0.0)) / (most or 1.0)
 
 
 def _is_of_order_1(settings: Settings) -> bool:

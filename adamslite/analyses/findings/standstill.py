@@ -1,6 +1,6 @@
-"""Joints that stood still in a run, in which others moved: as FIXED they would do the same.
+"""Motion by the rows of a run: joints that stood still, which could be FIXED, and its energy.
 
-Of the places of I relative to J, along the axes of J, at all output times.
+Places are those of I relative to J, along the axes of J, at all output times.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from adamslite.deck.deck import Deck
     from adamslite.language.interfaces import Key
     from adamslite.model.model import Model
+    from adamslite.results.results import Results
 
 #: Of the extent of the motion, and an angle: what moves less stands still.
 STILL = 1e-6
@@ -139,3 +140,18 @@ def largest_travel(history: History) -> float:
     travel = float((most - least).max(initial=0.0))
     size = float(np.maximum(-least, most).max(initial=0.0))
     return travel if ROUNDING * size < travel < np.inf else 0.0
+
+
+def energy_apart(model: Model, history: History, second: Results) -> float:
+    """The largest kinetic energy of what lies between two runs, over the largest of the first."""
+    run, weight = history.whole, dict[str, float]()
+    for body in model.bodies:
+        turning = float(np.abs(body.inertia).max(initial=0.0))
+        for axis in "xyz":
+            weight[f"{body.statement.label}.v{axis}"] = body.mass
+            weight[f"{body.statement.label}.w{axis}"] = turning
+    weights = np.array([weight.get(name, 0.0) for name in run.names])
+    rows = min(run.count, len(second.time))
+    apart = run.values[:rows] - np.asarray(second.values)[:rows]
+    most = float((np.nan_to_num(run.values[:rows]) ** 2 @ weights).max(initial=0.0))
+    return float((np.nan_to_num(apart) ** 2 @ weights).max(initial=0.0)) / (most or 1.0)

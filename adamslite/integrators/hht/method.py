@@ -40,7 +40,7 @@ from adamslite.integrators.contract import (
 )
 from adamslite.integrators.events.events import happened, start_events
 from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins, let_go
-from adamslite.integrators.events.stops import horizon, step_limit
+from adamslite.integrators.events.stops import fitted, horizon, longest_step, set_pace, step_limit
 from adamslite.integrators.failure_notes import note_trouble, wildest
 from adamslite.integrators.hht.control import Control
 from adamslite.integrators.hht.corrector import KEEP_STEPS, correct
@@ -54,14 +54,14 @@ from adamslite.integrators.hht.state import (
     start_from_here,
     start_values,
 )
-from adamslite.integrators.hht.step_size import ORDER, SAFETY, choose_step, fixed_step, limit_step
-from adamslite.integrators.implicit.step_size import first_step, retry_factor, shrunk
+from adamslite.integrators.implicit.step_size import first_step, retry_factor, shrunk, step_ratio
 from adamslite.integrators.implicit.tolerance import is_allowed
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import track
 from adamslite.integrators.records import note_violation
 from adamslite.integrators.stepping.control import NOBODY, RUNNING
 from adamslite.integrators.stepping.outcome import (
+    LONGER,
     OVERFLOW,
     cut,
     end_of_run,
@@ -72,11 +72,18 @@ from adamslite.integrators.stepping.outcome import (
     note_signature,
     note_try,
     passed_singularity,
+    round_off,
     too_small,
     why_stuck,
 )
 from adamslite.integrators.stepping.output import is_due, record_start
 from adamslite.native.translate import native, rare, seldom
+
+ORDER = 2
+# The next step aims at an estimated error below ERROR by this factor.
+SAFETY = 2.0
+# A step changes only when that pays for a new matrix, and never grows by more than this at once.
+LEAST_GROWTH, LEAST_SHRINK, MOST_GROWTH = 1.25, 0.9, 2.0
 
 
 @native
@@ -217,3 +224,39 @@ def after_rejection(P: Problem, C: Control, norm: float) -> int:
     C.equal, C.norm = 0, norm
     C.h *= cut(P, C, shrunk(SAFETY * norm, ORDER))
     return RUNNING
+
+
+@native
+def fixed_step(P: Problem) -> float:
+    """The step when HINIT, HMAX and HMIN say that all are equal, else 0."""
+    s = P.settings
+    return s.h_init if s.h_init > 0.0 and s.h_init == s.h_max and s.h_init == s.h_min else 0.0
+
+
+@native
+def limit_step(P: Problem, C: Control) -> None:
+    """Keep the step within its pace, the horizon and, when stepped onto, the output times."""
+    set_pace(P, C.t)
+    left = horizon(P) - C.t
+    C.h = min(C.h, longest_step(P))
+    if not P.settings.interpolate and C.fixed == 0.0:
+        C.h = fitted(C.h, step_limit(P, C.row) - C.t, round_off(P, C))
+    elif C.h * LONGER + round_off(P, C) > left:
+        C.h = left
+    elif C.fixed == 0.0 and 2.0 * C.h > left:
+        C.h = 0.5 * left
+
+
+@native
+def choose_step(P: Problem, C: Control, norm: float) -> None:
+    """The next step; one that was divided grows back."""
+    h = C.h
+    if C.fixed > 0.0:
+        C.h = min(2.0 * h, C.fixed)
+        return
+    C.equal += 1
+    factor = step_ratio(SAFETY * norm, ORDER)
+    room = min(MOST_GROWTH, longest_step(P) / h)
+    if (C.equal > 1 and min(factor, room) > LEAST_GROWTH) or factor < LEAST_SHRINK:
+        C.h *= cut(P, C, min(factor, room))
+        C.equal = 0
