@@ -8,6 +8,7 @@ Reference: Hairer, Wanner, Solving ODE II, 1996, section IV.8 (stopping criterio
 from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
+from adamslite.integrators.implicit.tolerance import TINY
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.newton import ROUND_OFF, SHRINKING, renews, serves, weigh_residuals
 from adamslite.integrators.radau.coefficients import REAL
@@ -107,7 +108,7 @@ def correct_separately(P: Problem, L: Plan, C: Control) -> bool:
     first leaves of it the second removes, which in turn couples inertia of the stages too loosely.
     """
     h, last, size, tolerance = C.h, 0.0, 0.0, CORRECTOR_SHARE * P.settings.error
-    noise = max(NOISE_SHARE * P.settings.error, NOISE * round_off(P, C))
+    noise = max(NOISE_SHARE * P.settings.error, min(TINY, NOISE * round_off(P, C)))
     C.theta, C.known = 1.0, False
     if C.factored != h:
         radau_jacobian(P, 2, h)
@@ -125,9 +126,8 @@ def correct_separately(P: Problem, L: Plan, C: Control) -> bool:
         size = maximum(size, move_stages(P, h))
         P.count.newton += 1
         rate = size / last if turn > 0 else 1.0
-        if min(1.0, rate / max(LEAST_REST, 1.0 - rate)) * size <= tolerance:
-            return True
-        if turn > 0 and rate > NOISY and size <= noise:
+        allowed = noise if turn > 0 and rate > NOISY else tolerance
+        if min(1.0, rate / max(LEAST_REST, 1.0 - rate)) * size <= allowed:
             return True
         if not size < OVERFLOW or (turn > 1 and rate > 1.0):
             return False
