@@ -12,6 +12,7 @@ import pytest
 import test_lanes as lanes
 from scenes import DAMPER, GROUND, PENDULUM, TEETER, chain, interpreted, run
 from test_large_start import ring
+from test_singular import parallelogram
 from tiers import every
 
 import adamslite as al
@@ -189,6 +190,9 @@ END
 """
 # Its steps are those of round-off, which differs from Python to native code.
 TEETERS = f"{GROUND}{TEETER}{DAMPER}END\n"
+#: Cranks at 5 degrees to their base, which lie flat after 0.02 s.
+LEVEL = "QG=0.99619469809174555,0.087155742747658166,0"
+FLATTENS = parallelogram(-4.0).replace("90D", "5D").replace("QG=0,1,0", LEVEL)
 RUNS = {
     f"{name} {method}": (deck, method) for name, deck in DECKS.items() for method in INTEGRATORS
 }
@@ -216,6 +220,7 @@ RUNS |= {
 BODY = "PART/50, MASS=1, CM=50, IP=1,2,2, WZ=1\nMARKER/50, PART=50\n"
 NOT_COMPARED = {
     "teeters": (TEETERS, "RADAU"),
+    "flattens": (FLATTENS, "RADAU"),  # a posture that amplifies round-off to 6e-6
     "in lanes": (lanes.windy(9) + "END\n", "VERLET"),
     "pushed in lanes": (lanes.pushed(20) + "END\n", "VERLET"),
     "in lanes, explicit": (lanes.windy(9) + "END\n", "ABAM"),
