@@ -72,7 +72,8 @@ ROWS, ELEMENTS, MANY = 2_000, 100, 50
 # Gaps of constraints that a coordinate has to exceed by so much.
 GAPS = 1e3
 # Of joints, ERRORs that it has to exceed: which of their coordinates are free is not looked at.
-HELD = 100.0
+# A range within errors of turns is theirs where it is the second share of itself in the other run.
+HELD, VANISHING = 100.0, 0.5
 # Share of its range that a channel may be off untold: this at a small ERROR, and more at a large
 # one, whose user expects no more.
 FELT, LOOSE, LOOSELY = 3e-4, 1e-4, 7.0
@@ -273,7 +274,10 @@ def _channels(
         seen, other_way = one.seen(i, j), other.seen(i, j)
         if seen is not None and other_way is not None:
             rest = max(least, HELD * error) if element.keyword == "JOINT" else least
-            yield from _apart(element.label, seen, other_way, rest, rest)
+            less, most = np.sort([np.ptp(each.place, axis=0) for each in (seen, other_way)], 0)
+            turning = most < error * float(np.abs(seen.place).max(initial=1.0))
+            rests = np.where(turning & (less < VANISHING * most), inf, rest)
+            yield from _apart(element.label, seen, other_way, rests, rest)
 
 
 def _pairs(model: Model) -> Iterator[tuple[Any, Any, Any]]:
@@ -287,12 +291,13 @@ def _pairs(model: Model) -> Iterator[tuple[Any, Any, Any]]:
                 yield i, j, each
 
 
-def _apart(label: str, one: Frame, other: Frame, way: float, turn: float) -> Iterator[Channel]:
+def _apart(label: str, one: Frame, other: Frame, way: Any, turn: float) -> Iterator[Channel]:
     """Coordinates and attitudes of a frame in two runs; at rest within ``way`` and ``turn``."""
     off = np.abs(one.place - other.place)
     ranges = np.maximum(np.ptp(one.place, axis=0), ROUNDING / FELT * np.abs(one.place).max(axis=0))
+    ranges = np.maximum(ranges, way)
     for k, axis in enumerate("xyz"):
-        yield Channel("places", f"{label} {axis}", off[:, k], max(float(ranges[k]), way))
+        yield Channel("places", f"{label} {axis}", off[:, k], float(ranges[k]))
     turned, off = _angle(one.axes, one.axes[:1]), _angle(one.axes, other.axes)
     turn = max(turn, float(turned.max(initial=0.0)))
     yield Channel("turns", label, off, turn, " rad")
