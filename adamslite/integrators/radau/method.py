@@ -211,7 +211,7 @@ def after_failure(P: Problem, C: Control) -> int:
     old = not C.fresh and C.known
     C.rate, C.cautious = 1.0, True
     if not old and not let_go(P):
-        if P.sizes.holonomic > 0 and not C.separate:
+        if P.sizes.holonomic > 0 and P.sizes.watched + P.sizes.zones == 0 and not C.separate:
             C.separate = True
             return RUNNING
         C.retries += 1
