@@ -35,7 +35,10 @@ def test_a_variable_that_has_no_solution_is_named(function, told):
 
 def test_an_expression_without_a_value_at_the_start():
     results = ended_early(FALLING + "VFORCE/7, I=2, J_PART=1, FX=1/TIME\nEND\n")
-    assert reason(results) == "VFORCE/7 (<text>:8:1): at t = 0, 1/TIME is nan at TIME = 0."
+    assert (
+        reason(results)
+        == "VFORCE/7 (<text>:8:1): at t = 0, 1/TIME has no finite value at TIME = 0."
+    )
 
 
 def test_accelerations_that_nothing_determines():

@@ -37,7 +37,7 @@ def test_a_run_that_stops_early_warns() -> None:
 def test_the_part_of_an_expression_without_a_value_is_named_with_its_values() -> None:
     results = al.simulate(FALL, strict=None)
     assert "SFORCE/1" in results.message
-    assert "SQRT(1 + DY(2, 1, 0)) is nan at 1 + DY(2, 1, 0) = -" in results.message
+    assert "SQRT(1 + DY(2, 1, 0)) has no finite value at 1 + DY(2, 1, 0) = -" in results.message
 
 
 def test_strict_raises_with_the_results() -> None:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from unfinished_scenes import pendulum
 
 import adamslite as al
 from adamslite.cli.main import main
@@ -300,3 +301,12 @@ def test_a_number_that_is_known_has_the_same_derivatives_without_setting_up(monk
     monkeypatch.setattr(Study, "snapshot", lambda *_: pytest.fail("the model is set up again"))
     again = al.sensitivities(deck, names, ["POINT_MASS/2.x@end"], **RUN)
     assert np.array_equal(again.gradient, quickly.gradient)
+
+
+def test_a_run_with_derivatives_reports_how_far_it_is() -> None:
+    times: list[float] = []
+    al.sensitivities(
+        al.read(pendulum(400, 4000)), ["PART/2.MASS"], ["final PART/2.x"], integrator="GSTIFF",
+        error=1e-7, progress=lambda time, end: times.append(time),
+    )  # fmt: skip
+    assert times and times == sorted(times) and 0.0 < times[0] < 400.0

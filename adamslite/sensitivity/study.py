@@ -78,6 +78,8 @@ class Study:
     ``plan``: what is carried out; ``flags``: of the session.
     """
 
+    progress: Progress | None = None
+
     def __init__(
         self, scene: Subject, commands: Iterable[Command], options: dict[str, Any]
     ) -> None:
@@ -121,7 +123,7 @@ class Study:
         ]
 
     def session(self, kind: type[Session], kernels: Kernels, **flags: Any) -> Any:
-        return kind(kernels, None, {**self.flags, **flags}, self.without, budget=self.budget)
+        return kind(kernels, self.progress, self.flags | flags, self.without, budget=self.budget)
 
     def run(
         self,
@@ -335,6 +337,7 @@ def sensitivities(
     with differences of runs where several events happen at a time.
     """
     study = Study(scene, commands, options)
+    study.progress = progress
     with within_memory(study.memory):
         found, named, session, along = _worked_out(study, by, of)
         if along and compare:

@@ -127,7 +127,7 @@ class Ended(NamedTuple):
     model: Model
     outcome: Outcome
     report: contract.Report
-    holonomic: bool
+    holonomic: int
     longest: float
 
     @classmethod
@@ -135,8 +135,7 @@ class Ended(NamedTuple):
         """A copy of what the system has."""
         report = contract.Report.zeros()
         report[:] = system.report
-        longest = float(system.settings.h_max)
-        return cls(system.model, outcome, report, bool(system.holonomic), longest)
+        return cls(system.model, outcome, report, system.holonomic, float(system.settings.h_max))
 
 
 def accuracy_notes(
@@ -157,9 +156,7 @@ def accuracy_notes(
     steps, report = counts.steps, system.report
     found = _compared(system, settings, history, second) if second else None
     if second and not second.outcome.is_requested and second.outcome is not Outcome.STEP_LIMIT:
-        told = [
-            f"its error is not known: a second run, which shows it, ended by {second.outcome.name}"
-        ]
+        told = [f"its error is not known: a second run ended by {second.outcome.name}"]
     elif found:
         told = [*_estimated(system, settings, steps, factor, found)]
     else:
