@@ -275,6 +275,22 @@ def test_whatever_else_acts(name: str) -> None:
     assert difference(found, error=1e-10, integrator="RADAU") < 1e-9
 
 
+@pytest.mark.parametrize("error", every(1, [1e-6, 1e-10]))
+def test_creep_that_has_ended_changes_no_branch(error: float) -> None:
+    """Once a joint slips its creep is constant; |D| had an edge there that the last digit crossed,
+    at which one run of ten stood still or took thousands of steps.
+    """
+    found, steps = deck(EXTRAS["friction"]), []
+    for k in range(40):
+        for rules in ((), ("fixed",)):
+            results = adamslite.simulate(
+                found, error=error * (1 + 1e-4 * k), integrator="RADAU", no_reduction=rules
+            )
+            assert results.outcome.name == "DONE"
+            steps.append(results.summary["steps"])
+    assert max(steps) < 3 * np.median(steps)
+
+
 def test_turns_are_counted() -> None:
     """Whirled round more than twice against a torsion spring that takes hold of the second part."""
     extra = "SFORCE/1, ROTATIONAL, I=6, J=1, FUNCTION=-3*AZ(6,1)\nREQUEST/1, F1=AZ(6,1)"

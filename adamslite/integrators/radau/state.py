@@ -74,14 +74,14 @@ def put_between(P: Problem, t: float, h: float, x: float) -> None:
 
 @native
 def collocated(P: Problem, start: Reals, rows: Reals, w: int, x: float, y: Reals) -> None:
-    """y at the share ``x`` of a step: the cubic through its start and the stages in ``rows``."""
+    """y at the share ``x`` of a step, the cubic through its start and stages; constants exactly."""
     a, b = P.tableau[NODE], P.tableau[NODE + 1]
     f0 = (x - a) * (x - b) * (x - 1.0) / (-a * b)
     f1 = x * (x - b) * (x - 1.0) / (a * (a - b) * (a - 1.0))
     f2 = x * (x - a) * (x - 1.0) / (b * (b - a) * (b - 1.0))
-    f3 = x * (x - a) * (x - b) / ((1.0 - a) * (1.0 - b))
     for i in range(w):
-        y[i] = f0 * start[i] + f1 * rows[w + i] + f2 * rows[2 * w + i] + f3 * rows[3 * w + i]
+        z = rows[3 * w + i]
+        y[i] = z + f0 * (start[i] - z) + f1 * (rows[w + i] - z) + f2 * (rows[2 * w + i] - z)
 
 
 @native
@@ -90,9 +90,9 @@ def quadratic(P: Problem, x: float, rows: Reals, lead: int, count: int, z: Reals
     a, b = P.tableau[NODE], P.tableau[NODE + 1]
     f1 = (x - b) * (x - 1.0) / ((a - b) * (a - 1.0))
     f2 = (x - a) * (x - 1.0) / ((b - a) * (b - 1.0))
-    f3 = (x - a) * (x - b) / ((1.0 - a) * (1.0 - b))
     for k in range(count):
-        z[k] = f1 * rows[k] + f2 * rows[lead + k] + f3 * rows[2 * lead + k]
+        last = rows[2 * lead + k]
+        z[k] = last + f1 * (rows[k] - last) + f2 * (rows[lead + k] - last)
 
 
 @native
