@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from adamslite.integrators.contract import Problem
 from adamslite.integrators.linalg.blocks import factor
-from adamslite.integrators.linalg.norms import largest_share
+from adamslite.integrators.linalg.norms import largest_of, largest_share
 from adamslite.integrators.linalg.plan import Plan
 from adamslite.integrators.motion_equations import PART, back_rotate, jacobian, spread
 from adamslite.native.translate import Reals, maximum, native
@@ -127,19 +127,16 @@ def apply_increment(P: Problem, dz: Reals, q: Reals, z: Reals, mu: Reals, si2: b
 
 
 @native
-def increment_norm(P: Problem, dz: Reals, cu: float, tied: bool) -> float:
+def increment_norm(P: Problem, dz: Reals, cu: float, tied: bool, reach: float) -> float:
     """Largest increment of what the error test looks at, each against max(1, |value|).
 
     Positions and rotations; velocities (cu times those) when ``cu`` is not zero; variables and
     states.  When constraints tie velocities of different size together (``tied``), an error that
     is small against one is large against another, so increments of bodies count as they are, and
-    those at the round-off of positions count as none, because at small steps they are all there
-    is.
+    those at the round-off of positions, up to ``reach``, count as none, because at small steps they
+    are all there is.
     """
     n, q, u, z = P.sizes.n, P.q, P.u, P.z
-    reach = 1.0
-    for i in range(n):
-        reach = maximum(reach, abs(q[i]))
     noise, largest = ROUND_OFF * reach, 0.0
     for i in range(n):
         change = abs(dz[i])
@@ -155,21 +152,21 @@ def increment_norm(P: Problem, dz: Reals, cu: float, tied: bool) -> float:
 
 
 @native
-def weigh_residuals(P: Problem, cq: float, cv: float) -> None:
+def weigh_residuals(P: Problem, cq: float, cv: float) -> float:
     """What a unit residual changes if inertia alone resists it, cq/m of positions and cv/m of
-    velocities against max(1, |value|), the larger of both, into ``P.ease``.
+    velocities against max(1, |value|), the larger of both, into ``P.ease``; returns the largest
+    position, at least 1.
 
     The last digits of positions make loads of the bodies that constraints tie together, which are
     not to count more than ``UNFELT`` of ERROR for a part that is all but a point.
     """
     q, u, n, mobility, ease = P.q, P.u, P.sizes.n, P.mobility, P.ease
-    reach = 1.0
-    for i in range(n):
-        reach = maximum(reach, abs(q[i]))
+    reach = maximum(1.0, largest_of(q, n))
     coarse = UNFELT * P.settings.error / (ROUND_OFF * reach)
     for i in range(n):
         x, v = max(1.0, abs(q[i])), max(1.0, abs(u[i]))
         ease[i] = min(mobility[i], coarse * mobility[n + i]) * max(cq * v, cv * x) / (x * v)
+    return reach
 
 
 @native
@@ -224,14 +221,11 @@ def multiplier_change(P: Problem, dz: Reals, z: Reals, ca: float) -> float:
 
 @native
 def velocity_change(P: Problem, before: Reals, noise: float) -> float:
-    """Largest change of a velocity by an increment of q and mu, above ``noise`` times the round-off
-    of positions.
+    """Largest change of a velocity by an increment of q and mu, 0 up to ``noise``.
 
     mu itself shows little: its share W G^T mu of the velocities may be a hundred times larger.
     """
-    reach, largest = 1.0, 0.0
+    largest = 0.0
     for i in range(P.sizes.n):
-        reach = max(reach, abs(P.q[i]))
-        change = abs(P.u[i] - before[i])
-        largest = maximum(largest, change)
-    return largest if largest > noise * ROUND_OFF * reach else 0.0
+        largest = maximum(largest, abs(P.u[i] - before[i]))
+    return 0.0 if largest <= noise else largest

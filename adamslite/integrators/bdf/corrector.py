@@ -26,6 +26,7 @@ from adamslite.integrators.motion_equations import (
     velocities,
 )
 from adamslite.integrators.newton import (
+    ROUND_OFF,
     SHRINKING,
     apply_increment,
     increment_norm,
@@ -100,7 +101,8 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
     share = FELT if tested > 0.0 else CORRECTOR_SHARE
     last, felt, made, renew, small = 0.0, 0.0, -1, False, False
     motion_from_increments(P, cu, yp, psi, si2)
-    weigh_residuals(P, 1.0 / (cu * cu), tested / (cu * cu))
+    reach = weigh_residuals(P, 1.0 / (cu * cu), tested / (cu * cu))
+    noise = ROUND_OFF * reach * cu
     for iteration in range(P.settings.max_it):
         P.report.iteration = iteration + 1
         if renew or not fits_step(C) or renews(P, iteration, C.age < KEEP_STEPS):
@@ -115,7 +117,7 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
             return True
         solve(L, P.LV, P.pivots, P.F, P.x, P.work)
         scale_increment(P, 2.0 / (1.0 + cu / C.factored))
-        size = increment_norm(P, P.F, tested, si2)
+        size = increment_norm(P, P.F, tested, si2, reach)
         apply_increment(P, P.F, P.q, P.z, P.mu, si2)
         for i in range(n):
             P.x[i] = P.u[i]
@@ -124,7 +126,7 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
             P.q[i] = P.history[i] + (yp[i] + e[i])
         motion_from_increments(P, cu, yp, psi, si2)
         # What an old matrix leaves open shrinks, noise does not: the first change is no noise.
-        size = max(size, further_change(P, cu, cu if iteration > 0 else 0.0, si2))
+        size = max(size, further_change(P, cu, noise if iteration > 0 else 0.0, si2))
         P.count.newton += 1
         if iteration > 0 and made < iteration:
             C.rate = max(LEAST_RATE, size / last)
@@ -151,8 +153,7 @@ def is_small(C: Control, size: float, error: float, tolerance: float, iteration:
 @native
 def further_change(P: Problem, cu: float, noise: float, si2: bool) -> float:
     """What an increment changed besides positions: velocities in the stabilised form (those before
-    stand in ``P.x``), above ``noise`` times the round-off of positions, and, with
-    CORRECTOR=ORIGINAL, multipliers.
+    stand in ``P.x``), above ``noise``, and, with CORRECTOR=ORIGINAL, multipliers.
     """
     size = velocity_change(P, P.x, noise) if si2 else 0.0
     if P.settings.all_converge:

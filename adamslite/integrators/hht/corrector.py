@@ -65,7 +65,7 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
     tolerance = CORRECTOR_SHARE * error * (min(1.0, C.h) if first_order_share(P) > 0.0 else 1.0)
     full, tries, felt, small = False, 0, 0.0, False
     C.fresh, C.made = False, -1
-    weigh_residuals(P, 1.0 / C.ca, 0.0)
+    C.reach = weigh_residuals(P, 1.0 / C.ca, 0.0)
     while tries < P.settings.max_it:
         if full or not matrix_fits(C) or renews(P, tries, C.age < C.life):
             C.factored, C.fresh, C.age, C.made = C.h, True, 0, tries

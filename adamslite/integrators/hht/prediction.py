@@ -33,14 +33,11 @@ def predict(P: Problem, C: Control) -> None:
     put_time(P, C.t + h)
     stretch = h / C.h_last if C.h_last > 0.0 else 0.0
     q, u, a, U, B, A = P.q, P.u, P.a, D[n:], D[2 * n :], P.ra
-    reach = 1.0
     for i in range(n):
         b = A[i] + (B[i] - A[i]) * stretch
         q[i] = D[i] + h * (U[i] + h * ((0.5 - beta) * b + beta * A[i]))
         u[i] = U[i] + h * ((1.0 - gamma) * b + gamma * A[i])
         a[i] = A[i]
-        reach = max(reach, abs(q[i]))
-    C.reach = reach
     for body in range(P.sizes.nb):
         if P.body[body].width == PART:
             turn_from_start(P, C, P.body[body].first)
