@@ -54,8 +54,9 @@ FINER, SHORT, SHORTER = 10.0, 1.2, 0.55
 # Where ERROR is close to round-off, or most of such a run would take too long, it is coarser:
 # by that, or its square where that takes too long as well; steps grow by that power of it.
 FINEST, COARSER, COARSEST, STRETCH = 1e-10, 100.0, 1e-3, 0.13
-# Residuals times unknowns that a second run may take: some 30 ms; of a longer run this share.
-LOOK, SHARE = 900_000.0, 0.03
+# Residuals times the size of the model that a second run may take: some 30 ms; of a longer run this
+# share.
+LOOK, SHARE = 1_250_000.0, 0.03
 # What has to be allowed, in first runs, for most of a finer one, and for all of a coarser one.
 DEARER, CHEAPER = 1.45, 0.5
 # Of less than this share of the time it says nothing; numbers that are compared at most.
@@ -187,12 +188,12 @@ def accuracy_notes(
 
 
 def second_run(
-    settings: Settings, counts: contract.Counts, unknowns: int, history: History, finer: bool
+    settings: Settings, counts: contract.Counts, size: int, history: History, finer: bool
 ) -> tuple[dict[str, Any], float]:
     """The options of a second run, none where it would take too long, and the error of the first
     over the difference of both; ``finer``: it must not be coarser.
     """
-    takes = max(float(counts.residuals) * unknowns, 1.0)
+    takes = max(float(counts.residuals) * size, 1.0)
     part = max(LOOK, SHARE * takes) / takes
     if part < LEAST_PART or not 1 < history.numbers < MOST_NUMBERS:
         return {}, 0.0

@@ -25,6 +25,8 @@ MOST_NAMED = 5
 MOST_LOOKED_AT = 2**24
 #: Evaluations of routines of a user that a second run may repeat.
 ROUTINE_CALLS = 5_000
+#: Bytes of the code of kernels that take as long as an unknown of an equation.
+CODE = 4096
 ACCURACY = "accuracy"
 #: Statements that may name a table, which is read again for a model that commands change.
 WITH_FILES = ("SPLINE", "MATRIX")
@@ -163,10 +165,12 @@ def _accuracy_note(session: Session, copied: bool) -> Callable[[], str] | None:
     """What makes the note: of a copy of the rows, which their user may change, or of themselves."""
     settings, counts, again = session.chosen.settings, session.counts, session.again
     system, routines = session.system, session.deck.user.used
-    model, outcome, history = session.kernels.model, session.outcome, session.history
+    groups, model = session.kernels.groups, session.kernels.model
+    outcome, history = session.outcome, session.history
     if not (system.dof or system.ns):
         return None
-    ended, unknowns = Ended.of(system, outcome), system.nz
+    ended = Ended.of(system, outcome)
+    size = system.nz + sum(len(each.code) * len(each.instances) for each in groups) // CODE
     few = not routines or counts.residuals < ROUTINE_CALLS
     repeated = again if outcome.is_requested and few else None
     history = history.copy() if copied else history
@@ -175,7 +179,7 @@ def _accuracy_note(session: Session, copied: bool) -> Callable[[], str] | None:
         second, factor = None, 0.0
         if repeated:
             for finer in (False, True):
-                options, factor = second_run(settings, counts, unknowns, history, finer)
+                options, factor = second_run(settings, counts, size, history, finer)
                 second = repeated(**options) if options else None
                 coarser = bool(options) and options["error"] > settings.error
                 if not (second and coarser and second.summary["steps"] > ALIKE * counts.steps):

@@ -125,8 +125,7 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
             # One rounding for all: noise of q is noise of forces.
             P.q[i] = P.history[i] + (yp[i] + e[i])
         motion_from_increments(P, cu, yp, psi, si2)
-        # What an old matrix leaves open shrinks, noise does not: the first change is no noise.
-        size = max(size, further_change(P, cu, noise if iteration > 0 else 0.0, si2))
+        size = max(size, further_change(P, cu, noise, si2))
         P.count.newton += 1
         if iteration > 0 and made < iteration:
             C.rate = max(LEAST_RATE, size / last)
