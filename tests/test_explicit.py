@@ -204,3 +204,76 @@ def test_no_error_is_large_against_a_state_beyond_all_numbers() -> None:
     scene = "a push\nPART/1, GROUND\nPOINT_MASS/2, MASS=1, CM=2\nMARKER/2, POINT_MASS=2\n"
     found = run(scene + "VFORCE/1, I=2, J_PART=1, FX=1E155\nEND\n", "ABAM", error=1e-3)
     assert found.outcome is Outcome.NOT_FINITE and len(found.time) == 1
+
+
+BOUNCING = """a mass that is driven against a stiff wall again and again
+UNITS/SYSTEM=MKS
+PART/1, GROUND
+MARKER/1, PART=1
+POINT_MASS/2, MASS={mass}, CM=2, QG=0.3,0,0, VX={speed}
+MARKER/2, POINT_MASS=2
+VFORCE/1, I=2, J_PART=1, FX=IMPACT(DX(2),VX(2),0,{stiffness},{power},0,0.01)-3*DX(2)-1
+SIMULATE/DYNAMIC, END=4, STEPS=50
+END
+"""
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_wall_of_any_power_is_left_as_precisely_as_it_is_met(seed: int) -> None:
+    """Behind an event a force may begin with a power of the time that is not whole.  There the
+    estimate of order 5, tamed by that of order 3 as if both were of their orders, fell short by a
+    factor of a hundred and more.
+    """
+    some = np.random.default_rng(seed)
+    for _ in range(4):
+        power, stiffness = some.uniform(1.1, 2.9), 10 ** some.uniform(4, 7)
+        deck = al.read(
+            BOUNCING.format(
+                mass=some.uniform(0.2, 3), speed=-some.uniform(0.3, 2),
+                stiffness=stiffness, power=power,
+            )
+        )  # fmt: skip
+        known = al.simulate(deck, integrator="RADAU", error=1e-11)["POINT_MASS/2.vx"]
+        found = al.simulate(deck, integrator="ABAM", error=1e-8)["POINT_MASS/2.vx"]
+        assert np.abs(found - known).max() < 500e-8 * np.ptp(known)
+
+
+TAPPED = """a four-bar linkage whose crank taps a stiff wall at every swing
+UNITS/SYSTEM=MKS
+ACCGRAV/JGRAV=-9.81
+PART/1, GROUND
+MARKER/1, PART=1
+MARKER/2, PART=1, QP=1.138,0,0
+PART/2, MASS=0.1221, CM=22, IP=1E-3,0.0008699,0.0008699, REULER=1.745,0,0
+MARKER/20, PART=2
+MARKER/21, PART=2, QP=0.2924,0,0
+MARKER/22, PART=2, QP=0.1462,0,0
+PART/3, MASS=0.1221, CM=32, IP=1E-3,0.01158,0.01158, QG=-0.0506799137237126,0.2879744890523413,0
+MARKER/30, PART=3
+MARKER/31, PART=3, QP=1.138,0,0
+MARKER/32, PART=3, QP=0.569,0,0
+PART/4, MASS=0.1221, CM=42, IP=1E-3,0.0008699,0.0008699, QG=1.138,0,0, REULER=1.745,0,0
+MARKER/40, PART=4
+MARKER/41, PART=4, QP=0.2924,0,0
+MARKER/42, PART=4, QP=0.1462,0,0
+JOINT/1, REVOLUTE, I=20, J=1, IC=1.745,-0.7045
+JOINT/2, REVOLUTE, I=30, J=21
+JOINT/3, REVOLUTE, I=31, J=41
+JOINT/4, REVOLUTE, I=40, J=2
+SFORCE/1, ROTATIONAL, I=20, J=1, FUNCTION=-12.047*(AZ(20,1)-PI/2)-83.51*(AZ(20,1)-PI/2)**3
+, +IMPACT(AZ(20,1)-PI/2,WZ(20,1),-0.07336,333200.0,1.342,2.042,0.003895)
+SIMULATE/DYNAMIC, END=2.946, STEPS=200
+END
+"""
+
+
+@pytest.mark.parametrize("error", [1e-6, 3e-7, 1e-7])
+def test_steps_are_not_tried_until_an_estimate_is_low_by_chance(error: float) -> None:
+    """Three rejections one after the other led back to before the wall, where constraints hold
+    firmly, 24 times: three tries of a step for one, and the last of many estimates.
+    """
+    deck = al.read(TAPPED)
+    known = al.simulate(deck, integrator="RADAU", error=1e-9)["PART/2.x"]
+    found = al.simulate(deck, integrator="ABAM", error=error)
+    assert np.abs(found["PART/2.x"] - known).max() < 300 * error * np.ptp(known)
+    assert found.summary["rejected"] < found.summary["steps"]

@@ -54,8 +54,7 @@ FINER, SHORT, SHORTER = 10.0, 1.2, 0.55
 # Where ERROR is close to round-off, or most of such a run would take too long, it is coarser:
 # by that, or its square where that takes too long as well; steps grow by that power of it.
 FINEST, COARSER, COARSEST, STRETCH = 1e-10, 100.0, 1e-3, 0.13
-# Residuals times the size of the model that a second run may take: some 30 ms; of a longer run this
-# share.
+# Residuals times size of the model that a second run may take (30 ms), or this share of the first.
 LOOK, SHARE = 1_250_000.0, 0.03
 # What has to be allowed, in first runs, for most of a finer one, and for all of a coarser one.
 DEARER, CHEAPER = 1.45, 0.5

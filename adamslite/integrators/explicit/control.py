@@ -18,7 +18,6 @@ INVERSE = HISTORY_ROWS = SLOPE + 1
 LINE = 4
 TABLES = 3 + 3 + 3 + 1 + 9
 
-
 # Kinds of scenes: bodies that something ties together, free bodies, point masses alone, and those
 # by component.
 TIED, BODIES, MASSES, LANES = 0, 1, 2, 3
@@ -33,6 +32,7 @@ class Control(StepControl):
     size                 numbers in a state: q, u and s
     width                numbers in the rates of a stage: all, of masses accelerations alone
     last_error           of the last accepted step, against ERROR
+    behind               whether the step starts at an event, or the run
     cautious             the step must not grow
     stale                the factored matrix is too old for the next stage
     tries                in vain since the last accepted step
@@ -54,6 +54,7 @@ class Control(StepControl):
     size: int
     width: int
     last_error: float
+    behind: bool
     cautious: bool
     stale: bool
     tries: int

@@ -119,7 +119,7 @@ def restart_rates(P: Problem, L: Plan, C: Control, restart: bool) -> int:
     """The first stage again; with ``restart`` the step is chosen as at the start of a run."""
     w = C.size
     y, k = P.history[OLD * w :], P.history[0:]
-    P.undoing.undoable = False
+    P.undoing.undoable, C.behind = False, True
     if not exact_rates(P, L, C, C.t, y, k):
         return NEWTON_FAILED
     if restart:

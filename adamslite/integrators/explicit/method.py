@@ -114,7 +114,7 @@ def begin(P: Problem, L: Plan, C: Control) -> int:
     C[:] = 0
     P.undoing[:] = 0
     P.report.floor = 0.0
-    C.t, C.last_error, C.blamed = P.settings.t, LEAST_ERROR, NOBODY
+    C.t, C.last_error, C.blamed, C.behind = P.settings.t, LEAST_ERROR, NOBODY, True
     choose_kind(P, C)
     start_state(P, C)
     start_events(P, True, True)
@@ -299,7 +299,7 @@ def complete(P: Problem, L: Plan, C: Control) -> int:
 def move_on(P: Problem, C: Control, t: float, recorded: bool) -> None:
     """The end of the step is the accepted state, its last stage the first of the next."""
     K = P.history
-    C.t = t
+    C.t, C.behind = t, False
     copy(K[OLD * C.size :], K[NEXT_STATE * C.size :], C.size)
     for i in range(C.width):
         K[i] = K[K_NEW * C.width + i]

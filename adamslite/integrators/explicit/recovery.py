@@ -21,9 +21,9 @@ from adamslite.integrators.stepping.outcome import OVERFLOW, SINGULAR_RESOLUTION
 from adamslite.native.translate import native, rare, seldom
 
 # Tries in vain around one place before the step that led there is taken back: failures of the
-# equations, rejections.
-FEW_FAILURES, FEW_REJECTIONS = 2, 3.0
-
+# equations; rejections where constraints hold so many times less firmly than at best, because
+# elsewhere other steps would be tried until the estimate of one is low by chance.
+FEW_FAILURES, FEW_REJECTIONS, LOOSER = 2, 3.0, 10.0
 # Steps after a failure of the equations, and after one that left its branch.
 CLOSER, HALF = 0.25, 0.5
 # A projection that moves further than this times ERROR does not correct a step but leaves it, as
@@ -93,8 +93,9 @@ def after_rejection(P: Problem, L: Plan, C: Control, error: float) -> int:
             return RUNNING
     P.undoing.trouble += 1.0
     C.tries += 1
-    if P.sizes.m > 0 and P.undoing.trouble >= FEW_REJECTIONS and start_elsewhere(P, C):
-        return RUNNING
+    if P.sizes.m > 0 and P.undoing.trouble >= FEW_REJECTIONS:
+        if sensitivity(P, L) > LOOSER * C.firmest and start_elsewhere(P, C):
+            return RUNNING
     C.cautious = True
     cut_step(P, C, max(SHRINK, smaller(C, error)) if error < OVERFLOW else SHRINK)
     return RUNNING
