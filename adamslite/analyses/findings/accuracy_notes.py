@@ -11,10 +11,10 @@ a share of the range that this channel has in the run:
     markers of an element     of x, y, z and turn of I seen from J, which is what it feels
 
 What stays within ERROR (DIFF states: ERROR of their size) or the gaps of constraints is at rest.
-The end is a channel where a SENSOR ends one of both runs alone, or both early.  Without a second
-run, the estimated errors of all steps are added up.  An oscillation between events (contacts, dead
-zones) amplifies them: its period depends on its speed, so that an error of one pass shifts every
-later event; n events make 1 + n/``SHIFTED`` of a sum.
+The end is a channel where a SENSOR ends a run.  Without a second run, the estimated errors of all
+steps are added up.  An oscillation between events (contacts, dead zones) amplifies them: its period
+depends on its speed, so that an error of one pass shifts every later event; n events make
+1 + n/``SHIFTED`` of a sum.
 """
 
 from __future__ import annotations
@@ -228,14 +228,14 @@ def _compared(
         return None
     span = float(np.ptp(run.times))
     part = float(np.ptp(run.times[:rows])) / span
-    alone = second.outcome.is_requested and (rows < 2 or second.outcome is not system.outcome)
-    if part < LEAST_PART and not alone:
+    halted = second.outcome.is_requested and Outcome.HALTED in (second.outcome, system.outcome)
+    if part < LEAST_PART and not halted:
         return None
     some = slice(0, rows, -(-rows // ROWS))
     values = run.values[some], np.asarray(second.values)[some]
     gaps = max(settings.error, GAPS * float(system.report.violation))
     channels = [*_channels(system.model, run, values, gaps, settings.error)]
-    if alone:  # a SENSOR has ended one of them alone, or both before the second output time
+    if halted:  # by a SENSOR, one of them or both
         shift = abs(float(second.time[-1] - run.times[-1]))
         shifts = np.append(np.zeros(len(values[0]) - 1), shift)
         channels.append(Channel("ends", "the time of its end", shifts, span))
