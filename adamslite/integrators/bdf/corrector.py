@@ -125,7 +125,8 @@ def correct(P: Problem, L: Plan, C: Control) -> bool:
             # One rounding for all: noise of q is noise of forces.
             P.q[i] = P.history[i] + (yp[i] + e[i])
         motion_from_increments(P, cu, yp, psi, si2)
-        size = max(size, further_change(P, cu, noise, si2))
+        # What an old matrix leaves open shrinks, noise does not: the first change is no noise.
+        size = max(size, further_change(P, cu, noise if iteration > 0 else 0.0, si2))
         P.count.newton += 1
         if iteration > 0 and made < iteration:
             C.rate = max(LEAST_RATE, size / last)
@@ -151,8 +152,8 @@ def is_small(C: Control, size: float, error: float, tolerance: float, iteration:
 
 @native
 def further_change(P: Problem, cu: float, noise: float, si2: bool) -> float:
-    """What an increment changed besides positions: velocities in the stabilised form (those before
-    stand in ``P.x``), above ``noise``, and, with CORRECTOR=ORIGINAL, multipliers.
+    """What an increment changed besides positions: velocities in the stabilised form (``P.x``:
+    those before) above ``noise`` and, with CORRECTOR=ORIGINAL, multipliers.
     """
     size = velocity_change(P, P.x, noise) if si2 else 0.0
     if P.settings.all_converge:

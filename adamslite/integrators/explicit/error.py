@@ -120,9 +120,7 @@ def change(P: Problem, C: Control) -> float:
 
 @native
 def local_error(P: Problem, C: Control, h: float) -> float:
-    """Error of the step against ERROR: the fifth order's, tamed by the third's but behind an event,
-    where a force may begin with a power of the time that makes both alike.
-    """
+    """Error of a step over ERROR: the fifth order's, tamed by the third's but behind an event."""
     w = C.size
     y, zero, e = P.history[NEXT_STATE * w :], P.history[BETWEEN * w :], P.trial[0:]
     scales = P.history[SCALES * w :]
@@ -144,6 +142,7 @@ def local_error(P: Problem, C: Control, h: float) -> float:
     if fifth < NOTHING:  # whose square may be nothing
         return 0.0
     tamed = fifth * fifth / (fifth * fifth + 0.01 * third * third) ** 0.5
+    # A force that begins with a power of the time makes both of one order.
     return fifth if C.behind else tamed
 
 
