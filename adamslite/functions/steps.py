@@ -32,13 +32,16 @@ def _edges(x: Expr, x0: Expr, h0: Expr, x1: Expr, h1: Expr) -> tuple[Expr, ...]:
 
 
 def _blend(
-    order: int, shape: Callable[[Expr], Expr], x: Expr, x0: Expr, h0: Expr, x1: Expr, h1: Expr
-) -> Expr:
+    order: int, shape: Callable[[Expr], Expr], x: Expr, x0: Expr, h0: Expr, x1: Expr, h1: Expr,
+    wave: bool = False,
+) -> Expr:  # fmt: skip
     # The conditions are D <= 0 and D >= 1 without the division: x1 < x0 is a step to the left, and
     # x1 = x0 (a contact without damping depth) stays finite.
     width = x1 - x0
-    rise = h0 + (h1 - h0) * shape((x - x0) / width)
-    before, behind = (x - x0) * width <= 0, (x - x1) * width >= 0
+    before, behind, share = (x - x0) * width <= 0, (x - x1) * width >= 0, (x - x0) / width
+    if wave:  # of time, it would have to be followed where the step is over, too
+        share = piecewise((0, before), (1, behind), otherwise=share)
+    rise = h0 + (h1 - h0) * shape(share)
     return piecewise((h0, before), (h1, behind), otherwise=rise, order=order)
 
 
@@ -67,7 +70,7 @@ def havsin(scope: Scope, x: Expr, x0: Expr, h0: Expr, x1: Expr, h1: Expr) -> Exp
 
     D = (x - x0)/(x1 - x0).  Unit: that of h0 and h1.  Source: Adams/Solver function HAVSIN.
     """
-    return _blend(1, lambda d: (1 - fn.cos(math.pi * d)) / 2, x, x0, h0, x1, h1)
+    return _blend(1, lambda d: (1 - fn.cos(math.pi * d)) / 2, x, x0, h0, x1, h1, wave=True)
 
 
 @function(

@@ -12,9 +12,8 @@ a share of the range that this channel has in the run:
 
 What stays within ERROR (DIFF states: ERROR of their size) or the gaps of constraints is at rest.
 The end is a channel where a SENSOR ends a run.  Without a second run, the estimated errors of all
-steps are added up.  An oscillation between events (contacts, dead zones) amplifies them: its period
-depends on its speed, so that an error of one pass shifts every later event; n events make
-1 + n/``SHIFTED`` of a sum.
+steps are added up.  Oscillations between events (contacts, dead zones) amplify them, because an
+error of one pass shifts every later event: n events make 1 + n/``SHIFTED`` of a sum.
 """
 
 from __future__ import annotations

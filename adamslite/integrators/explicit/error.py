@@ -142,8 +142,7 @@ def local_error(P: Problem, C: Control, h: float) -> float:
     if fifth < NOTHING:  # whose square may be nothing
         return 0.0
     tamed = fifth * fifth / (fifth * fifth + 0.01 * third * third) ** 0.5
-    # A force that begins with a power of the time makes both of one order.
-    return fifth if C.behind else tamed
+    return fifth if C.behind else tamed  # a force of t^p makes both of one order
 
 
 @native

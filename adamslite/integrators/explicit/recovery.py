@@ -20,9 +20,8 @@ from adamslite.integrators.stepping.control import RUNNING
 from adamslite.integrators.stepping.outcome import OVERFLOW, SINGULAR_RESOLUTION, why_stuck
 from adamslite.native.translate import native, rare, seldom
 
-# Tries in vain around one place before the step that led there is taken back: failures of the
-# equations; rejections where constraints hold so many times less firmly than at best, because
-# elsewhere other steps would be tried until the estimate of one is low by chance.
+# Tries in vain around one place before the step that led there is taken back: failures; rejections
+# where constraints hold so many times less firmly than at best (else: until one is low by chance).
 FEW_FAILURES, FEW_REJECTIONS, LOOSER = 2, 3.0, 10.0
 # Steps after a failure of the equations, and after one that left its branch.
 CLOSER, HALF = 0.25, 0.5
