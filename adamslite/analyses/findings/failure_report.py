@@ -247,7 +247,7 @@ def _undefined(system: System, statement: Statement) -> str:
         if not np.isfinite(whole) and not named and np.isfinite(values).all():
             pairs = zip(parts, values, strict=True)
             given = [f"{to_text(p)} = {x:.6g}" for p, x in pairs if not isinstance(p, Num)]
-            return f", {to_text(node)} has no finite value at {', '.join(given)}"
+            return f", {to_text(node)} has no finite value{' at ' * bool(given)}{', '.join(given)}"
     return ""
 
 

@@ -20,6 +20,7 @@ from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
 from typing import Any
 
+from adamslite.kernels.code.graph_to_llvm import CONDITIONS
 from adamslite.native.llvm_builder import LIBRARY
 from adamslite.symbolic.derivatives import Derivatives
 from adamslite.symbolic.formulas import LOOKUPS
@@ -182,16 +183,14 @@ def _driven(expression: Expr, writer: ClockWriter) -> Iterator[Expr]:
         timed = [each for each in _terms(node) if writer.on_clock(each)]
         if writer.on_clock(node):
             yield node
-        elif timed and node.kind in SUMS:
-            yield sum(timed, ZERO)
         elif timed:
-            yield from timed
+            yield from [sum(timed, ZERO)] if node.kind in SUMS else timed
 
 
 def _terms(node: Expr) -> list[Expr]:
-    """The terms of a sum, with their signs; the arguments of anything else."""
+    """The terms of a sum, with their signs; the arguments of anything else, but no conditions."""
     if node.kind not in SUMS:
-        return list(node.args)
+        return [each for each in node.args if each.kind not in CONDITIONS]
     found, pending = [], [(node, 1)]
     while pending:
         top, sign = pending.pop()
