@@ -23,6 +23,7 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Any, Self, TypeVar
 
 OPPOSITE = {"<": ">=", ">=": "<", ">": "<=", "<=": ">", "==": "!=", "!=": "=="}
+CONDITIONS = {*OPPOSITE, "and", "or", "not", "true", "false"}
 
 N = TypeVar("N", bound="Vertex")
 

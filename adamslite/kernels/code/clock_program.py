@@ -20,14 +20,13 @@ from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
 from typing import Any
 
-from adamslite.kernels.code.graph_to_llvm import CONDITIONS
 from adamslite.native.llvm_builder import LIBRARY
 from adamslite.symbolic.derivatives import Derivatives
 from adamslite.symbolic.formulas import LOOKUPS
 from adamslite.symbolic.graph import ONE, TRUE, ZERO, div, neg, sub
 from adamslite.symbolic.guards import CLOCK_LEAVES, FIXED_LEAVES
 from adamslite.symbolic.slopes import slopes
-from adamslite.symbolic.structure import ordered
+from adamslite.symbolic.structure import CONDITIONS, ordered
 from adamslite.symbolic.types import Expr, Leaf, Symbol
 
 Instruction = list[Any]

@@ -17,10 +17,9 @@ from adamslite.native.llvm_builder import LIBRARY, Builder, Value
 from adamslite.native.translate import symbol
 from adamslite.symbolic.routines import FIRST as ROUTINE_FIRST
 from adamslite.symbolic.routines import INPUTS
-from adamslite.symbolic.structure import ordered
+from adamslite.symbolic.structure import CONDITIONS, ordered
 from adamslite.symbolic.types import Expr, Symbol
 
-CONDITIONS = frozenset(("<", "<=", ">", ">=", "==", "!=", "and", "or", "not", "true", "false"))
 NAMES = {"+": "sum", "-": "difference", "*": "product", "/": "quotient", "**": "power"}
 
 
