@@ -165,7 +165,9 @@ def test_a_cardan_shaft_at_the_origin_is_right(method: str, error: float) -> Non
 @pytest.mark.parametrize("error", [1e-3, 1e-4, 1e-6])
 @pytest.mark.parametrize("method", ["GSTIFF", "RADAU", "HHT", "ABAM"])
 def test_a_chain_of_pendulums_is_not_determined_for_long(method: str, error: float) -> None:
-    """Two bars that tumble for 15 s: the note says how far runs of different methods agree."""
+    """Two bars that tumble for 15 s: the note says how far runs of different methods agree.  RADAU
+    at 1e-6 has a coarser second run, which is lost at 9 s: 5.5 % was said of all of it.
+    """
     deck = HEAD + (
         "ACCGRAV/JGRAV=-9.81\nPART/2, MASS=1, CM=21, IP=.1,.1,.1\nMARKER/2, PART=2\n"
         "MARKER/21, PART=2, QP=.5,0,0\nMARKER/22, PART=2, QP=1,0,0\n"
@@ -179,9 +181,10 @@ def test_a_chain_of_pendulums_is_not_determined_for_long(method: str, error: flo
     note = results.meta.get("accuracy", "")
     assert "estimated global error" in note
     assert off.max() > 0.02
+    assert "not determined" in note or off.max() < 0.9
     if "not determined" in note:
         since = float(note.split("from t = ")[1].split()[0])
-        assert off[results.time < since - 0.5].max() < 0.5
+        assert off[results.time < since - 0.5].max() < 0.5 and since > 4.0
 
 
 TWO = ("GSTIFF", 1e-3), ("RADAU", 1e-9)

@@ -101,14 +101,7 @@ def run_groups(P: Problem, phases: int, target: Reals) -> None:
     g = P.group
     for k in range(P.sizes.ng):
         if g[k].phases & phases:
-            call_address(
-                g[k].residual,
-                g[k].count,
-                g[k].ints,
-                g[k].reals,
-                P.W,
-                target,
-            )
+            call_address(g[k].residual, g[k].count, g[k].ints, g[k].reals, P.W, target)
 
 
 @native
@@ -127,14 +120,7 @@ def track(P: Problem) -> None:
     g = P.group
     for k in range(P.sizes.ng):
         if g[k].track:
-            call_address(
-                g[k].track,
-                g[k].count,
-                g[k].ints,
-                g[k].reals,
-                P.W,
-                P.W,
-            )
+            call_address(g[k].track, g[k].count, g[k].ints, g[k].reals, P.W, P.W)
 
 
 @native
@@ -148,14 +134,7 @@ def guard_values(P: Problem, which: int) -> None:
     for k in range(P.sizes.ng):
         address = g[k].clock if which == CLOCK else g[k].watch
         if address:
-            call_address(
-                address,
-                g[k].count,
-                g[k].ints,
-                g[k].reals,
-                P.W,
-                P.guard,
-            )
+            call_address(address, g[k].count, g[k].ints, g[k].reals, P.W, P.guard)
 
 
 @native
@@ -305,15 +284,7 @@ def jacobian(P: Problem, phases: int, c: Reals, J: Reals) -> None:
     g = P.group
     for k in range(P.sizes.ng):
         if g[k].phases & phases and g[k].jacobian:
-            call_address(
-                g[k].jacobian,
-                g[k].count,
-                g[k].ints,
-                g[k].reals,
-                P.W,
-                c,
-                J,
-            )
+            call_address(g[k].jacobian, g[k].count, g[k].ints, g[k].reals, P.W, c, J)
     P.count.jacobians += 1
 
 

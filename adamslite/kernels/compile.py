@@ -12,15 +12,7 @@ from collections.abc import Iterable, Iterator
 from adamslite.caching.entries import recall, recall_json
 from adamslite.deck.statement_diagnostics import diagnose_inside
 from adamslite.kernels.collecting import Groups, add, bound, faces, output_face
-from adamslite.kernels.groups import (
-    Bundle,
-    Kernels,
-    Meta,
-    ShapeGroup,
-    Writer,
-    linked,
-    members_of,
-)
+from adamslite.kernels.groups import Bundle, Kernels, Meta, ShapeGroup, Writer, linked, members_of
 from adamslite.language.diagnostics import DeckError, Diagnostic
 from adamslite.language.statement import Statement
 from adamslite.model.model import Model
@@ -36,11 +28,7 @@ has as many.
 """
 
 
-def compile_model(
-    model: Model,
-    progress: Progress | None = None,
-    audited: bool = False,
-) -> Kernels:
+def compile_model(model: Model, progress: Progress | None = None, audited: bool = False) -> Kernels:
     """Bind every statement, compile the shapes not seen before, link all of them.
 
     ``audited``: what elastic elements store too.

@@ -1,9 +1,9 @@
 """What a run reports of its own accuracy, which ERROR, a bound of each step, does not say.
 
-A run that reached its end is carried out again with a smaller ERROR, without a word and no further
-than ``LOOK`` allows.  What lies between both runs is what the first is off by, whatever damps,
-amplifies or shifts its errors; a part of the time stands for all of it.  The error of a channel is
-a share of the range that this channel has in the run:
+A run that reached its end is carried out again with a smaller ERROR, without a word, or with a
+larger one where that would take too long (:mod:`second_runs`).  What lies between both runs is what
+the first is off by, whatever damps, amplifies or shifts its errors; a part of the time stands for
+all of it.  The error of a channel is a share of the range that this channel has in the run:
 
     x, y, z of a body         from the least to the largest
     attitude of a part        the largest turn
@@ -18,7 +18,7 @@ error of one pass shifts every later event: n events make 1 + n/``SHIFTED`` of a
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import islice
 from math import inf
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
@@ -45,32 +45,18 @@ if TYPE_CHECKING:
     from adamslite.model.model import Model
     from adamslite.results.results import Results
 
-# The second run is at ERROR over this, over its square where that is not too long: both may err
-# alike where they damp a vibration or pass a narrow force. Its difference from the first falls
-# short of the error by as much as it errs itself. Its longest step is that share of what limits
-# those of the first.
-FINER, SHORT, SHORTER = 10.0, 1.2, 0.55
-# Where ERROR is close to round-off, or most of such a run would take too long, it is coarser:
-# by that, or its square where that takes too long as well; steps grow by that power of it.
-FINEST, COARSER, COARSEST, STRETCH = 1e-10, 100.0, 1e-3, 0.13
-# Residuals times size of the model that a second run may take (30 ms), or this share of the first.
-LOOK, SHARE = 1_250_000.0, 0.03
-# What has to be allowed, in first runs, for most of a finer one, and for all of a coarser one.
-DEARER, CHEAPER = 1.45, 0.5
-# Of less than this share of the time it says nothing; numbers that are compared at most.
-LEAST_PART, MOST_NUMBERS = 0.02, 2**21
-# A coarser run that takes more than this share of the steps is limited as the first one is, by
-# expressions of TIME or zones, and errs alike.
-ALIKE = 0.8
+# Of less than this share of the time a second run says nothing.
+LEAST_PART = 0.02
 # Steps so close to HMAX on average are limited by it.
 LIMITED = 0.8
 # An error that grows by a higher power of the time is amplified.
-POWER, LARGEST = 2.5, 10.0
+POWER, LARGEST, LATER = 2.5, 1.0, 50
 # Rows and elements that are compared.
 ROWS, ELEMENTS, MANY = 2_000, 100, 50
 # Gaps of constraints that a coordinate has to exceed by so much.
 GAPS = 1e3
-# Of joints, ERRORs that it has to exceed: which of their coordinates are free is not looked at.
+# Of joints, ERRORs of both runs that it has to exceed: which of their coordinates are free is not
+# looked at.
 # A range within errors of turns is theirs where it is the second share of itself in the other run.
 HELD, VANISHING = 100.0, 0.5
 # Share of its range that a channel may be off untold: this at a small ERROR, and more at a large
@@ -84,7 +70,7 @@ FELT_IN_SUM = 1e-3
 OFTEN, CARRIED, FIRST_ORDER = 0.05, 0.01, 1e-9
 # Events after which a sum counts twice.
 SHIFTED = 15.0
-# Errors of all channels, their times, and the part of the time in which they are known.
+# Errors of all channels, their times, and the end of the run.
 Compared: TypeAlias = "tuple[list[Channel], np.ndarray, float]"
 
 
@@ -97,27 +83,35 @@ class Channel(NamedTuple):
     range: float
     unit: str = ""
 
-    def share(self, rows: int | None = None) -> float:
-        """The largest error of the first rows as a share of the range."""
-        return float(np.nanmax(self.error[:rows], initial=0.0)) / self.range
+    def share(self) -> float:
+        """The largest error as a share of the range."""
+        return float(np.nanmax(self.error, initial=0.0)) / self.range
 
-    def grown(self, part: float) -> float:
-        """The same at the end of the run, when it is known of the first ``part``: a power of the
-        time, or an exponential function where it grows faster than ``POWER`` all the time.
+    def course(self, factor: float, times: np.ndarray, end: float) -> tuple[np.ndarray, np.ndarray]:
+        """Times up to ``end``, and ``factor`` of the largest error until then as a share of the
+        range. Behind ``times`` it is a power of the time, or an exponential function where it has
+        grown faster than ``POWER`` all the time. Then a coarser run is worth nothing from where
+        both have nothing in common.
         """
-        quarters = [max(self.share(len(self.error) * k // 4 + 1), ROUNDING) for k in range(1, 5)]
-        growth = np.diff(np.log(quarters))
-        power = float((growth / np.diff(np.log([1.0, 2.0, 3.0, 4.0]))).min())
-        if part < 1.0 and power > POWER:
-            return min(
-                self.share() * np.exp(min(4.0 * growth.min() * (1 / part - 1), 60.0)), LARGEST
+        error = np.broadcast_to(np.nan_to_num(self.error), times.shape)
+        shares = np.maximum.accumulate(error) / self.range
+        lost = int(np.searchsorted(shares, LOST)) if factor < 1.0 else len(times)
+        for rows in (min(max(lost, 5), len(times)), len(times)):
+            quarters = np.fmax(
+                shares[[min(rows * k // 4, rows - 1) for k in (1, 2, 3, 4)]], ROUNDING
             )
-        return self.share() * part ** -max(power, 0.0)
-
-    def lost(self, factor: float, rows: int) -> int:
-        """The first row in which it is not determined; ``rows`` where there is none."""
-        late = factor * self.error > LOST * self.range
-        return int(late.argmax()) if late.any() else rows
+            growth = np.diff(np.log(quarters))
+            power = float((growth / np.diff(np.log([1.0, 2.0, 3.0, 4.0]))).min())
+            if power > POWER:
+                break
+        known = max(times[rows - 1] - times[0], LEAST_PART * (end - times[0]))
+        later = np.linspace(1.0, max((end - times[0]) / known, 1.0), LATER)
+        grown = later ** max(power, 0.0)
+        if power > POWER:
+            grown = np.exp(np.minimum(4.0 * growth.min() * (later - 1.0), 60.0))
+        ours, ahead = factor * shares[:rows], factor * quarters[-1] * grown
+        ahead = np.minimum(ahead, max(LARGEST, ours[-1]))
+        return np.append(times[:rows], times[0] + later * known), np.append(ours, ahead)
 
 
 class Ended(NamedTuple):
@@ -142,20 +136,21 @@ def accuracy_notes(
     settings: Settings,
     counts: contract.Counts,
     history: History,
-    second: Results | None,
+    seconds: Sequence[Results],
     factor: float,
 ) -> str:
     """What ERROR does not say about the accuracy of a run, in sentences; empty when it does.
 
-    ``counts`` and ``history`` are those of all of it; ``second`` are the results of a second run,
-    and ``factor`` is the error over the difference from it.
+    ``counts`` and ``history`` are those of all of it; ``seconds`` are the results of second runs,
+    and ``factor`` is the error over the difference from them.
     """
     if settings.formula.steps == FIXED:
         return "equal steps without error test: compare a run with half of HINIT"
     steps, report = counts.steps, system.report
-    found = _compared(system, settings, history, second) if second else None
-    if second and not second.outcome.is_requested and second.outcome is not Outcome.STEP_LIMIT:
-        told = [f"its error is not known: a second run ended by {second.outcome.name}"]
+    found = [each for run in seconds if (each := _compared(system, settings, history, run, factor))]
+    ends = [run.outcome for run in seconds if not run.outcome.is_requested]
+    if ends and ends[0] is not Outcome.STEP_LIMIT:
+        told = [f"its error is not known: a second run ended by {ends[0].name}"]
     elif found:
         told = [*_estimated(system, settings, steps, factor, found)]
     else:
@@ -163,9 +158,7 @@ def accuracy_notes(
     if told:
         told += _of_method(settings)
         rough = settings.formula.damping and report.rough_steps > OFTEN * steps
-        if rough and not (
-            found and second and energy_apart(system.model, history, second) < CARRIED
-        ):
+        if rough and not (found and energy_apart(system.model, history, seconds[0]) < CARRIED):
             told.append(
                 f"accelerations changed by more than half in {report.rough_steps} of {steps} "
                 "steps: vibrations faster than the steps were damped, not followed; where they "
@@ -185,38 +178,8 @@ def accuracy_notes(
 # ---- by a second run ---------------------------------------------------------------------------
 
 
-def second_run(
-    settings: Settings, counts: contract.Counts, size: int, history: History, finer: bool
-) -> tuple[dict[str, Any], float]:
-    """The options of a second run, none where it would take too long, and the error of the first
-    over the difference of both; ``finer``: it must not be coarser.
-    """
-    takes = max(float(counts.residuals) * size, 1.0)
-    part = max(LOOK, SHARE * takes) / takes
-    if part < LEAST_PART or not 1 < history.numbers < MOST_NUMBERS:
-        return {}, 0.0
-    apart = np.diff(history.whole.times)
-    usual = float(np.median(apart[apart > 0.0])) if apart.any() else inf
-    longest = min(settings.hmax or inf, usual)
-    # Steps may be limited by expressions of TIME: to their mean.
-    hmax = SHORTER * min(longest, float(apart.sum()) / max(1, int(counts.steps)) or inf)
-    order, factor = settings.formula.order, SHORT
-    much = part ** (2.0 if _is_of_order_1(settings) else order + 1.0) > FINER**2
-    error = settings.error / (FINER**2 if much else FINER)
-    coarser = min(COARSER if part > CHEAPER else COARSER**2, COARSEST / settings.error)
-    if not finer and coarser >= FINER and (part < DEARER or settings.error < FINEST):
-        error, stretch = settings.error * coarser, coarser**STRETCH
-        hmax = stretch * longest
-        factor = 1.0 / (min(coarser ** (order / (order + 1.0)), stretch**order) - 1.0)
-    options = {
-        "integrator": settings.method, "formulation": settings.form, "error": error,
-        "hmax": hmax if hmax < inf else None, "max_steps": int(part * int(counts.steps)) + 1,
-    }  # fmt: skip
-    return options, factor
-
-
 def _compared(
-    system: Ended, settings: Settings, history: History, second: Results
+    system: Ended, settings: Settings, history: History, second: Results, factor: float
 ) -> Compared | None:
     """What lies between a run and a second one; None where they have no times in common."""
     run = history.whole
@@ -233,19 +196,20 @@ def _compared(
     some = slice(0, rows, -(-rows // ROWS))
     values = run.values[some], np.asarray(second.values)[some]
     gaps = max(settings.error, GAPS * float(system.report.violation))
-    channels = [*_channels(system.model, run, values, gaps, settings.error)]
+    held = HELD * settings.error / min(factor, 1.0)
+    channels = [*_channels(system.model, run, values, settings.error, gaps, held)]
     if halted:  # by a SENSOR, one of them or both
         shift = abs(float(second.time[-1] - run.times[-1]))
         shifts = np.append(np.zeros(len(values[0]) - 1), shift)
         channels.append(Channel("ends", "the time of its end", shifts, span))
     found = [each for each in channels if 0.0 < each.range < inf]
-    return found, run.times[some], max(part, LEAST_PART)
+    return found, run.times[some], float(run.times[-1])
 
 
 def _channels(
-    model: Model, run: Piece, values: tuple[np.ndarray, np.ndarray], least: float, error: float
+    model: Model, run: Piece, values: tuple[np.ndarray, np.ndarray], error: float, *least: float
 ) -> Iterator[Channel]:
-    """What lies between two runs, channel by channel."""
+    """What lies between two runs, channel by channel; ``least``: of elements, of joints."""
     column = {name: k for k, name in enumerate(run.names)}
     one, other = (Parts(model, column, each) for each in values)
     bodies = [each.label for each in model.moving if f"{each.label}.x" in column]
@@ -269,7 +233,7 @@ def _channels(
     for i, j, element in islice(_pairs(model), ELEMENTS):
         seen, other_way = one.seen(i, j), other.seen(i, j)
         if seen is not None and other_way is not None:
-            rest = max(least, HELD * error) if element.keyword == "JOINT" else least
+            rest = max(least) if element.keyword == "JOINT" else least[0]
             less, most = np.sort([np.ptp(each.place, axis=0) for each in (seen, other_way)], 0)
             turning = most < error * float(np.abs(seen.place).max(initial=1.0))
             rests = np.where(turning & (less < VANISHING * most), inf, rest)
@@ -306,17 +270,18 @@ def _angle(one: np.ndarray, other: np.ndarray) -> np.ndarray:
 
 
 def _estimated(
-    system: Ended, settings: Settings, steps: int, factor: float, found: Compared
+    system: Ended, settings: Settings, steps: int, factor: float, found: list[Compared]
 ) -> Iterator[str]:
     """The estimated errors of a run, the worst of each kind."""
-    channels, times, part = found
     felt = FELT * (LOOSELY if settings.error > LOOSE else 1.0)
-    worst: dict[str, Channel] = {}
-    for each in channels:
-        if each.kind not in worst or each.share() > worst[each.kind].share():
-            worst[each.kind] = each
-    shares = [(factor * each.grown(part), each) for each in worst.values()]
-    shares.sort(key=lambda each: -each[0])
+    since, worst = inf, dict[str, tuple[float, Channel]]()
+    for channels, times, end in found:
+        for each in sorted(channels, key=Channel.share, reverse=True)[:MANY]:
+            at, course = each.course(factor, times, end)
+            since = min(since, float(at[course > LOST].min(initial=inf)))
+            if each.kind not in worst or course[-1] > worst[each.kind][0]:
+                worst[each.kind] = float(course[-1]), each
+    shares = sorted(worst.values(), key=lambda each: -each[0])
     if not shares or not shares[0][0] > felt:
         return
     texts = []
@@ -325,14 +290,13 @@ def _estimated(
         if off > 0.1 * felt:
             texts.append(f"{off * each.range:.1e}{each.unit} in {each.name} ({share})")
     longest = system.longest
-    limited = steps * longest * LIMITED < float(np.ptp(times)) / part
+    limited = steps * longest * LIMITED < end - times[0]
     remedy = f"a shorter HMAX than {longest:.3g}" if limited else _remedy(settings)
     yield (
         f"estimated global error {', '.join(texts)} after {steps} steps: {remedy} keeps more digits"
     )
-    since = min(each.lost(factor, len(times)) for each in channels)
-    if since < len(times):
-        yield f"from t = {times[since]:.4g} on the result is not determined at this ERROR"
+    if since < inf:
+        yield f"from t = {since:.4g} on the result is not determined at this ERROR"
 
 
 def _remedy(settings: Settings) -> str:
@@ -346,7 +310,7 @@ def _remedy(settings: Settings) -> str:
 
 def _of_method(settings: Settings) -> Iterator[str]:
     """Why a formula errs."""
-    if _is_of_order_1(settings):
+    if is_of_order_1(settings):
         yield (
             f"with GAMMA={settings.damping[2]:g} the formula is of order 1, and a run is off by "
             "the root of ERROR rather than by ERROR; HHT damps as well and is of order 2"
@@ -355,7 +319,7 @@ def _of_method(settings: Settings) -> Iterator[str]:
         yield "the formula is of order 2: GSTIFF, RADAU or RKF45 get further with fewer steps"
 
 
-def _is_of_order_1(settings: Settings) -> bool:
+def is_of_order_1(settings: Settings) -> bool:
     """Whether GAMMA and ALPHA cost NEWMARK an order."""
     alpha, _, gamma = settings.damping
     return bool(settings.formula.damping) and abs(gamma + alpha - 0.5) > FIRST_ORDER

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from adamslite.analyses.findings.accuracy_notes import ALIKE, Ended, accuracy_notes, second_run
+from adamslite.analyses.findings.accuracy_notes import Ended, accuracy_notes
 from adamslite.analyses.findings.buckling import buckled
+from adamslite.analyses.findings.second_runs import second_runs
 from adamslite.analyses.findings.slack import compressed
 from adamslite.results.outcomes import Outcome
 
@@ -176,15 +177,10 @@ def _accuracy_note(session: Session, copied: bool) -> Callable[[], str] | None:
     history = history.copy() if copied else history
 
     def note() -> str:
-        second, factor = None, 0.0
+        seconds, factor = list[Any](), 0.0
         if repeated:
-            for finer in (False, True):
-                options, factor = second_run(settings, counts, size, history, finer)
-                second = repeated(**options) if options else None
-                coarser = bool(options) and options["error"] > settings.error
-                if not (second and coarser and second.summary["steps"] > ALIKE * counts.steps):
-                    break
-        found = accuracy_notes(ended, settings, counts, history, second, factor)
+            seconds, factor = second_runs(settings, counts, size, history, repeated)
+        found = accuracy_notes(ended, settings, counts, history, seconds, factor)
         grown = buckled(model, history)
         return "; ".join(sentence for sentence in (grown, found) if sentence)
 

@@ -26,12 +26,7 @@ from adamslite.integrators.bdf.corrector import correct
 from adamslite.integrators.bdf.dense_output import record
 from adamslite.integrators.bdf.differences import extend_history, extrapolate, gamma, rebase
 from adamslite.integrators.bdf.events import end_at_crossing, pass_on, passes_crossing
-from adamslite.integrators.bdf.order import (
-    choose_order,
-    local_error,
-    most_order,
-    watch_order,
-)
+from adamslite.integrators.bdf.order import choose_order, local_error, most_order, watch_order
 from adamslite.integrators.bdf.order_cap import start_watch
 from adamslite.integrators.bdf.recovery import (
     after_failure,
@@ -50,13 +45,7 @@ from adamslite.integrators.contract import BROKEN_START, FULL, SINGULAR_MASS, Pr
 from adamslite.integrators.events.dips import expected_share
 from adamslite.integrators.events.events import happened, start_events
 from adamslite.integrators.events.guards import crawls, hold_watch, keep_margins
-from adamslite.integrators.events.stops import (
-    fitted,
-    horizon,
-    longest_step,
-    set_pace,
-    step_limit,
-)
+from adamslite.integrators.events.stops import fitted, horizon, longest_step, set_pace, step_limit
 from adamslite.integrators.implicit.step_size import first_step
 from adamslite.integrators.implicit.tolerance import is_allowed
 from adamslite.integrators.linalg.plan import Plan
