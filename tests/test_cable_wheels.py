@@ -160,6 +160,10 @@ def test_a_block_starts_at_rest_under_the_weight_of_its_wheel_too() -> None:
         [[route]]
         kind = "fixed"
         at = [0.1, 0, 0]
+        [model]
+        level = 3
+        form = "ale"
+        elements = 4
         """
     )
     assert results["REQUEST/1.F2"] == pytest.approx(52 * 9.81 / 2, rel=4e-3)

@@ -33,6 +33,7 @@ from adamslite.language.diagnostics import DeckError, Diagnostic, sort_by_place
 
 # Shares by which payout may outrun a load before it is reported.
 FASTER = 0.01
+MOVED = "the loads it hangs on are moved by another cable"
 SHARES = ("not level 1: how cables share a load depends on their stiffness",)
 
 
@@ -211,7 +212,7 @@ def several(given: Description) -> Written:
         ropes = [replace(rope, spec=spec) for rope, spec in zip(ropes, specs, strict=True)]
     _check_forms(ropes)
     _stop(faults, faults.errors)
-    found = [_sharing(rope, ropes, loads) for rope in ropes]
+    found = [_sharing(*each, ropes, loads) for each in zip(ropes, _moved(ropes), strict=True)]
     _check_shares(found, ropes, loads)
     _stop(faults, faults.errors)
     text = _whole(lambda: write(found, loads), found[0].spec, faults)
@@ -227,17 +228,30 @@ def _whole(write_it: Callable[[], str], spec: Spec, faults: Faults) -> str:
         raise DeckError(sort_by_place(faults.found)) from None
 
 
-def _sharing(rope: Rope, ropes: list[Rope], loads: tuple[Load, ...]) -> Modelled:
+def _moved(ropes: list[Rope]) -> list[Drawn]:
+    """Cables, and what is known of their motion: nothing on loads that others move."""
+    found = [_ready("", rope) for rope in ropes]
+    rests = [each.moves.known and each.moves.most <= each.moves.least for each in found]
+    loads = [{station.on for station in each.spec.route if station.on} for each in found]
+    moving = set().union(*(on for on, still in zip(loads, rests, strict=True) if not still))
+    return [
+        replace(each, moves=replace(each.moves, unknown=MOVED)) if still and on & moving else each
+        for each, on, still in zip(found, loads, rests, strict=True)
+    ]
+
+
+def _sharing(rope: Rope, ready: Drawn, ropes: list[Rope], loads: tuple[Load, ...]) -> Modelled:
     """A cable with its model: not a rigid one where cables share a load by their stiffness, and
     the level is not given."""
-    of = _ready("", rope).demanding()
+    of = ready.demanding()
     shares = loads and any(each.on for each in rope.spec.route)
     free = not rope.spec.level and shares and not are_determined(ropes, loads)
     if not free or chosen(of, of.faults.copy()).level > 1:
         return _modelled(of, rope.faults)
     feeds = any(each.feeds for each in rope.spec.route)
     elastic = replace(rope, spec=replace(rope.spec, level=3 if feeds else 2))
-    found = _modelled(_ready("", elastic).demanding(), rope.faults)
+    ready = replace(_ready("", elastic), moves=ready.moves)
+    found = _modelled(ready.demanding(), rope.faults)
     reasons = replace(found.model.reasons, level=SHARES)
     return replace(found, model=replace(found.model, reasons=reasons))
 

@@ -12,7 +12,7 @@ ITERATIONS = 20
 
 
 def hanging(
-    spec: Spec, n: int, length: float, line: tuple[Vector, Vector], tension: float, held: bool
+    spec: Spec, n: int, length: float, line: tuple[Vector, Vector], tension: float
 ) -> tuple[float, list[Vector]]:
     """A span of n sections at rest.
 
@@ -23,9 +23,7 @@ def hanging(
     line : (Vector, Vector)
         Where the span begins, and its direction.
     tension : float
-        At its far end [N].
-    held : bool
-        Whether the far end is a fixed point: then gravity along the span is left out.
+        At its lower end [N].
 
     Returns
     -------
@@ -35,13 +33,14 @@ def hanging(
         Places of the nodes, the far end included.
     """
     (place, along), cable = line, spec.cable
-    weight = 0.0 if held else dot(spec.gravity, along)
+    weight = dot(spec.gravity, along)
     falls = _sag(spec, n, length, along, tension)
     drops = [norm(d) for d in (add(b, a, -1) for a, b in pairwise([ZERO, *falls]))]
     free = length
     for _ in range(ITERATIONS):
         node = cable.density * free / n * weight
-        pulls = [tension + node * (n - k + 0.5) for k in range(1, n + 1)]
+        below = n + 0.5 if weight > 0 else 0.5
+        pulls = [tension + node * (below - k) for k in range(1, n + 1)]
         steps = [free / n * (1 + pull / cable.stiffness) for pull in pulls]
         steps = [sqrt(max(h * h - d * d, 0.0)) for h, d in zip(steps, drops, strict=True)]
         if not any(steps):  # it sags by more than its length

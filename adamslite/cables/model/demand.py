@@ -125,11 +125,12 @@ class Demand:
     end: float = 0.0
     results: int = 0
     asked: tuple[str, ...] = ("tension", "position")
+    given: int = 0
     machines: tuple[Machine, ...] = field(default=(), compare=False)
 
     def left(self, p: float) -> Errors | None:
         """What models leave out by the linear model; None without one."""
-        found = [errors(each, LINEAR_SHARE * p, self.asked) for each in self.machines]
+        found = [errors(each, LINEAR_SHARE * p, self.asked, self.given) for each in self.machines]
         return worst(found) if found else None
 
     @property

@@ -168,25 +168,25 @@ def _bar(
     a, b = spec.route[i], spec.route[j]
     start, finish = (_terms(spec, k, span.along, rims, places) for k in (i, j))
     rigidity = spec.cable.stiffness
-    falls = dot(spec.gravity, span.along) if _is_held(spec, p) else 0.0
     return Bar(
-        start, finish, span.length, (rigidity, rigidity), a.is_wheel and b.is_wheel,
-        (a.is_free and not a.slides, b.is_free and not b.slides), falls,
+        start, finish, span.length, (rigidity, rigidity),
+        (a.is_free and not a.slides, b.is_free and not b.slides),
     )  # fmt: skip
 
 
-def _is_held(spec: Spec, p: int) -> bool:
-    """Whether the tip of a span is a fixed point: it starts with one tension all along."""
-    i, j = spec.pairs[p]
-    a, b = spec.route[i], spec.route[j]
-    tip = a if b.feeds and not a.feeds else b
-    return tip.kind == "fixed"
+def at_height(spec: Spec, tension: float, place: Vector) -> float:
+    """Tension at a place of a run between wheels, when it is `tension` at what hangs there: weights
+    at the ends, else blocks, else the first station."""
+    ends = [each.at for each in (spec.route[0], spec.route[-1]) if each.is_free]
+    ends = ends or [each.at for each in spec.route if each.is_carried] or [spec.route[0].at]
+    above = [dot(spec.gravity, add(place, end, -1)) for end in ends]
+    return max(tension - spec.cable.density * sum(above) / len(above), 0.0)
 
 
 def _ends(spec: Spec, p: int, span: FreeSpan, rest: float) -> tuple[float, float]:
     """Tensions at rest at the start and finish of a span, the lower of which is `rest`."""
-    if _is_held(spec, p) or all(spec.route[i].is_wheel for i in spec.pairs[p]):
-        return rest, rest
+    if all(spec.route[i].is_wheel for i in spec.pairs[p]):
+        return at_height(spec, rest, span.start), at_height(spec, rest, span.finish)
     weight = spec.cable.density * span.length * dot(spec.gravity, span.along)
     return rest + max(weight, 0.0), rest + max(-weight, 0.0)
 

@@ -241,6 +241,7 @@ def demand_on_longest(spec: Spec, spans: list[FreeSpan], moves: Moves) -> Demand
         across=moves.across, along=moves.along, straight=not (moves.across or spec.bends),
         end=spec.end, tied=tied,
         rubs=rubs, slackens=cable.pulls_only, results=spec.steps, asked=spec.quantities,
+        given=spec.elements,
     )  # fmt: skip
 
 

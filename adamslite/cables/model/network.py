@@ -40,16 +40,14 @@ class Bar:
     """A span: the displacements of its start and finish along it; `pull` is the rigidity [force] of
     its sections at both ends, EA or, across, the tension.
 
-    `light`: one spring without mass, however many sections others have. `points`: whether the half
-    sections at start and finish go with a point in all directions, and not with a rim. `falls`:
-    acceleration along it of what starts out of balance.
+    `points`: whether the half sections at start and finish go with a point in all directions, and
+    not with a rim. `falls`: acceleration along it of what starts out of balance.
     """
 
     start: Terms
     finish: Terms
     length: float
     pull: tuple[float, float]
-    light: bool = False
     points: tuple[bool, bool] = (False, False)
     falls: float = 0.0
 
@@ -116,7 +114,7 @@ class Sections:
 
     def __init__(self, of: Network, n: int) -> None:
         self.of, self.n = of, n
-        self.counts = [1 if bar.light or not n else n for bar in of.bars]
+        self.counts = [n or 1] * len(of.bars)
         nodes = sum(self.counts) - len(of.bars)
         size = len(of.masses) + nodes
         self.size = size
@@ -140,7 +138,7 @@ class Sections:
         row, node = 0, len(self.of.masses)
         for bar, count in zip(self.of.bars, self.counts, strict=True):
             h = bar.length / count
-            heavy = 0.0 if bar.light or not self.n else self.of.density * h
+            heavy = self.of.density * h if self.n else 0.0
             places = [bar.start, *(((node + i, 1.0),) for i in range(count - 1)), bar.finish]
             for i in range(count):
                 share = (i + 0.5) / count

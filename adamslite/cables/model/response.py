@@ -184,8 +184,9 @@ class Errors:
         return last * (max(self.of_sections[last], p) / p) ** (1 / self.power)
 
 
-def errors(of: Machine, p: float, asked: tuple[str, ...]) -> Errors:
-    """Of models of a scene, up to the second in a row that leaves less than `p`."""
+def errors(of: Machine, p: float, asked: tuple[str, ...], given: int = 0) -> Errors:
+    """Of models of a scene, up to the second in a row that leaves less than `p`; the least tension
+    is that of the `given` sections."""
     truth = _known(of, MANY)
     rest, power = _remainder(of, asked)
     found: list[float] = []
@@ -201,7 +202,8 @@ def errors(of: Machine, p: float, asked: tuple[str, ...]) -> Errors:
         rigid = inf
     scales = [scale for _, scale in truth.tension.values()]
     return Errors(
-        rigid, dict(zip((*COUNTS, MANY), found, strict=False)), truth.lowest,
+        rigid, dict(zip((*COUNTS, MANY), found, strict=False)),
+        _known(of, min(given, MANY)).lowest if given else truth.lowest,
         min(scales) / of.rigidity,
         truth.ringing,
         power,

@@ -23,7 +23,7 @@ from adamslite.cables.layout.geometry import FreeSpan, wrap
 from adamslite.cables.model.model_choice import CableModel
 from adamslite.cables.statements.forms import number
 from adamslite.cables.statements.pieces import Piece, at_least_nothing, is_between
-from adamslite.cables.statements.wheel_spans import at_rest, half, is_heavy, tension_at
+from adamslite.cables.statements.wheel_spans import at_rest, half, tension_at
 from adamslite.cables.statements.wheels import STICKS, arm, rolled, travel
 from adamslite.cables.statements.winches import drive
 
@@ -39,10 +39,7 @@ def turned(spec: Spec, spans: list[FreeSpan], model: CableModel, found: list[Pie
         text = _friction(spec, spans, model, (before, behind), i)
         return text + drive(spec, i, [f"{radius}*F_{spec.marker(i)}"])
     pulls = f"+{tension_at(spec, behind, i)}" if behind else ""
-    if before:
-        pulls += (
-            f"-({tension_at(spec, before, i)})" if is_heavy(spec, before) else f"-T{before.number}"
-        )
+    pulls += f"-({tension_at(spec, before, i)})" if before else ""
     return drive(spec, i, [f"{radius}*({pulls})"] if model.level > 1 else [])
 
 
@@ -63,7 +60,7 @@ def at_wheel(spec: Spec, model: CableModel, piece: Piece, i: int) -> str:
 def _beside(spec: Spec, model: CableModel, piece: Piece, i: int) -> str:
     """Mass of a span at wheel i that moves with the cable there, "" for none."""
     if is_between(spec, piece):
-        return half(piece) if is_heavy(spec, piece) else ""
+        return half(piece)
     at_root = piece.root == i and spec.route[piece.tip].kind != "run"
     return f"rho*{half_section(model, piece, spec)}" if at_root else ""
 

@@ -1,16 +1,18 @@
 """The spans of a route as they are written: root, tip, numbers, and the cable that comes in."""
 
 from dataclasses import dataclass
+from math import ceil
 
 from adamslite.cables.description.vocabulary import Spec
 from adamslite.cables.layout.geometry import FreeSpan
+from adamslite.cables.model.machine import at_height
 from adamslite.cables.model.model_choice import tensions
 from adamslite.cables.statements.forms import number
 from adamslite.cables.statements.links import comes
-from adamslite.cables.vectors import ZERO, Vector, add, dot
+from adamslite.cables.vectors import ZERO, Vector, add
 
-# Strain over which a span becomes slack.
-SOFT = 1e-7
+# Strain over which a span becomes slack; part of a section that needs none.
+SOFT, WHOLE = 1e-7, 1e-6
 # Number of the first station; as many spans would have numbers of stations.
 FIRST_STATION = 10
 
@@ -33,6 +35,7 @@ class Piece:
     along: Vector
     sense: int
     tension: float
+    sections: int = 1
 
     @property
     def ends(self) -> tuple[int, int]:
@@ -40,13 +43,17 @@ class Piece:
         return (self.root, self.tip) if self.sense > 0 else (self.tip, self.root)
 
 
-def pieces(spec: Spec, spans: list[FreeSpan]) -> list[Piece]:
-    """One for every span."""
+def pieces(spec: Spec, spans: list[FreeSpan], elements: int = 1) -> list[Piece]:
+    """One for every span; between two wheels its sections are as long as those of the longest."""
     pulls = spec.rests or tensions(spec, spans)
-    return [_piece(spec, p, span, pulls[p]) for p, span in enumerate(spans)]
+    longest = max(span.length for span in spans)
+    return [
+        _piece(spec, p, span, pulls[p], ceil(elements * span.length / longest - WHOLE))
+        for p, span in enumerate(spans)
+    ]
 
 
-def _piece(spec: Spec, p: int, span: FreeSpan, tension: float) -> Piece:
+def _piece(spec: Spec, p: int, span: FreeSpan, tension: float, sections: int) -> Piece:
     i, j = spec.pairs[p]
     a, b = spec.route[i], spec.route[j]
     backwards = b.feeds and not a.feeds or a.kind == "run"
@@ -58,18 +65,9 @@ def _piece(spec: Spec, p: int, span: FreeSpan, tension: float) -> Piece:
     first = 1000 * (number + spec.thousands)
     label = first if (spec.numbers.all_spans or len(spec.pairs)) >= FIRST_STATION else number
     if a.is_wheel and b.is_wheel:
-        tension = _in_the_middle(spec, span, tension)
+        tension = at_height(spec, tension, add(span.start, span.along, span.length / 2))
     along = add(ZERO, span.along, sense)
-    return Piece(number, first, label, span, root, tip, place, along, sense, tension)
-
-
-def _in_the_middle(spec: Spec, span: FreeSpan, tension: float) -> float:
-    """Tension there, when it is `tension` at the weights at the ends, or at the first station."""
-    ends = [each.at for each in (spec.route[0], spec.route[-1]) if each.is_free]
-    ends = ends or [spec.route[0].at]
-    middle = add(span.start, span.along, span.length / 2)
-    above = [dot(spec.gravity, add(middle, end, -1)) for end in ends]
-    return max(tension - spec.cable.density * sum(above) / len(above), 0.0)
+    return Piece(number, first, label, span, root, tip, place, along, sense, tension, sections)
 
 
 def feed(spec: Spec, piece: Piece, order: int = 0) -> str:

@@ -13,7 +13,7 @@ from adamslite.cables.statements.forms import AXES, number
 from adamslite.cables.statements.links import wrapped
 from adamslite.cables.statements.pieces import Piece, is_between, pieces, root_marker
 from adamslite.cables.statements.span_statements import row_of, side_of, spring
-from adamslite.cables.statements.wheel_spans import is_heavy, tension_at
+from adamslite.cables.statements.wheel_spans import tension_at
 from adamslite.cables.statements.wheels import is_rim, mount_request, travel, turning
 
 # A tension below this strain is none, and no ratio is taken with it.
@@ -23,7 +23,7 @@ SLACK = 1e-12
 def write_requests(spec: Spec, spans: list[FreeSpan], model: CableModel) -> str:
     """Tension of every span; travel over every wheel and through every weight that slides, how
     the cable lies on a wheel and loads it."""
-    found = pieces(spec, spans)
+    found = pieces(spec, spans, model.elements)
     text = "\n! ---- results ----\n"
     if model.level > 1:
         text += "".join(_tensions(spec, model, piece) for piece in found)
@@ -46,9 +46,9 @@ def _tensions(spec: Spec, model: CableModel, piece: Piece) -> str:
     p, n = piece.number, model.elements
     root, tip = spec.route[piece.root], spec.route[piece.tip]
     parts = [f"F2={at_wheel(spec, model, piece, piece.root)}"]
-    if is_heavy(spec, piece):
+    if is_between(spec, piece):
         parts.append(f"F3={tension_at(spec, piece, piece.tip)}")
-    elif not (is_between(spec, piece) or tip.kind == "run"):
+    elif tip.kind != "run":
         side = side_of(spec, piece, model)
         if not root.feeds and root.kind != "run":
             i, j = root_marker(spec, piece), side.node(1)

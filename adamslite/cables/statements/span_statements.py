@@ -1,7 +1,7 @@
 """Levels 1 to 3: every span of the route as a rigid cable, or as nodes and sections.
 
 Node k of span p is MARKER/1000 p + k, counted from the wheel, from the start of the route without
-one. A span between two wheels is one spring; a run that continues pulls with T0 + rho c v.
+one; between two wheels nodes are states. A run that continues pulls with T0 + rho c v.
 
 The half section beside a wheel whose axle moves, with e from the wheel at x_0 along the cable, H a
 section, S the cable that the wheel brings:
@@ -56,7 +56,7 @@ from adamslite.cables.vectors import ZERO, Vector, add, dot
 
 def write_pieces(spec: Spec, spans: list[FreeSpan], model: CableModel) -> str:
     """Spans, ends, what turns the wheels."""
-    found = pieces(spec, spans)
+    found = pieces(spec, spans, model.elements)
     text = "".join(_span(spec, model, piece) for piece in found)
     text += _ends(spec, model, found)
     for i, each in enumerate(spec.route):
@@ -149,10 +149,9 @@ def _hanging(spec: Spec, model: CableModel, piece: Piece) -> tuple[float, list[V
         n, between = model.elements, add(ZERO, piece.along, piece.span.length)
         places = [add(piece.place, between, k / n) for k in range(1, n + 1)]
         return spec.frees[piece.number - 1 - spec.numbers.spans], places
-    held = spec.route[piece.tip].kind == "fixed"
     spec = replace(spec, gravity=add(ZERO, spec.gravity, spec.lightness(piece.place)))
     return hanging(spec, model.elements, piece.span.length, (piece.place, piece.along),
-                   piece.tension, held)  # fmt: skip
+                   piece.tension)  # fmt: skip
 
 
 def _axes(spec: Spec) -> str:
