@@ -6,6 +6,9 @@ import numpy as np
 import pytest
 from descriptions import solve
 
+from adamslite.cables.deck.scene import deck
+from adamslite.language.diagnostics import DeckError
+
 G = 9.81
 
 
@@ -196,6 +199,151 @@ def test_a_block_on_heavy_falls_keeps_the_balance_of_momentum() -> None:
     whole = (5000 + wheel + 2 * rope) * G + (5000 + wheel) * block["ay"] + momentum
     whole += 10 * (2 * block["vy"]) ** 2  # what the winch takes up leaves with its momentum
     assert held == pytest.approx(whole, rel=5e-3)
-    assert held[100:] == pytest.approx(whole[100:], rel=2e-3)
+    assert held[100:] == pytest.approx(whole[100:], rel=3e-3)  # less, waves in the falls
     assert held[0] == pytest.approx((5000 + wheel + 2000) * G, rel=1e-3)
-    assert np.ptp(held[:3]) < 2e-3 * held[0]
+    assert block["ay"][0] == pytest.approx(0.0, abs=0.01)
+
+
+HOIST = """
+end = 2
+statics = true
+[cable]
+EA = 5e7
+rho = 5.0
+[[route]]
+kind = "mass"
+at = [2, -100, 0]
+mass = 1000
+[[route]]
+kind = "pulley"
+at = [1, 50, 0]
+motion = ["0", "0.0*TIME", "0"]
+radius = 1
+inertia = 100
+[[route]]
+kind = "winch"
+at = [-30, 0, 0]
+radius = 1
+inertia = 1000
+turn = -1
+payout = "0*TIME"
+[model]
+elements = 20
+"""
+TACKLE = """
+end = 8
+[cable]
+EA = 2e6
+rho = 0.5
+damping = 0.1
+[[load]]
+at = [0.1, -5, 0]
+mass = 500
+name = "block"
+inertia = [5, 5, 5]
+[[route]]
+kind = "hook"
+at = [-0.1, -5, 0]
+[[route]]
+kind = "pulley"
+at = [0, 0, 0]
+radius = 0.1
+inertia = 0.01
+[[route]]
+kind = "pulley"
+at = [0.2, -5, 0]
+radius = 0.1
+inertia = 0.01
+load = "block"
+[[route]]
+kind = "winch"
+at = [0.5, 0, 0]
+radius = 0.2
+inertia = 2
+turn = -1
+payout = "-STEP5(TIME,1,0,6,6)"
+"""
+ELEVATOR = """
+end = 20
+steps = 1000
+statics = true
+[[cable]]
+name = "hoist"
+EA = 2.2e7
+rho = 2.9
+damping = 0.1
+fall = "carhook drive cwthook"
+[[cable]]
+name = "comp"
+EA = 2.2e7
+rho = 2.9
+damping = 0.1
+pretension = 3000
+fall = "carlow idler cwtlow"
+[[load]]
+name = "car"
+at = [-0.4, -80, 0]
+mass = 2400
+[[load]]
+name = "cwt"
+at = [0.4, -10, 0]
+mass = 3200
+[[route]]
+name = "carhook"
+kind = "hook"
+load = "car"
+at = [-0.4, -80, 0]
+[[route]]
+name = "drive"
+kind = "winch"
+at = [0, 0, 0]
+radius = 0.4
+inertia = 60
+payout = "60*STEP5(TIME,1,0,19,1)"
+[[route]]
+name = "cwthook"
+kind = "hook"
+load = "cwt"
+at = [0.4, -10, 0]
+[[route]]
+name = "carlow"
+kind = "hook"
+load = "car"
+at = [-0.4, -80, 0]
+[[route]]
+name = "idler"
+kind = "pulley"
+at = [0, -90, 0]
+radius = 0.4
+inertia = 20
+[[route]]
+name = "cwtlow"
+kind = "hook"
+load = "cwt"
+at = [0.4, -10, 0]
+"""
+
+
+def test_sections_that_are_longer_than_a_wheel_are_named() -> None:
+    """It was said that the tension stretches the cable by half."""
+    with pytest.raises(DeckError) as caught:
+        deck(HOIST)
+    assert [each.code for each in caught.value.diagnostics] == ["bend-too-tight"]
+
+
+def test_a_tackle_takes_its_payout_from_all_falls() -> None:
+    """6 m of cable are more than a span has, and lift what hangs on three falls by 2 m."""
+    results = solve(TACKLE, warns=True)
+    assert results["PART/50.y"][-1] + 5 == pytest.approx(2.0, abs=5e-3)
+    assert results["REQUEST/1.F2"][-1] == pytest.approx(500 * G / 3, rel=0.02)
+
+
+def test_a_rope_that_another_one_moves_has_its_mass_where_it_hangs() -> None:
+    """A car between hoist and compensation rope: what pulls at it accelerates it, everywhere."""
+    results = solve(ELEVATOR)
+    pull = results["REQUEST/1.F3"] - 2400 * G - results["REQUEST/3.F3"]
+    off = pull - 2400 * results["POINT_MASS/70.ay"]
+    travels = np.abs(results["REQUEST/20.F3"]) > 0.01
+    # The paper's form leaves out half of rho v^2 at the car.
+    assert np.abs(off[~travels]).max() < 1e-3 * 2400 * G
+    assert np.abs(off[travels]).max() < 2.5e-3 * 2400 * G

@@ -55,6 +55,8 @@ POWER, LARGEST, LATER = 2.5, 1.0, 50
 ROWS, ELEMENTS, MANY = 2_000, 100, 50
 # Gaps of constraints that a coordinate has to exceed by so much.
 GAPS = 1e3
+# DIFF states, which a step tests as if they were 1, are of this size at least: less is round-off.
+LIMP = 1e-3
 # Of joints, ERRORs of both runs that it has to exceed: which of their coordinates are free is not
 # looked at.
 # A range within errors of turns is theirs where it is the second share of itself in the other run.
@@ -226,7 +228,7 @@ def _channels(
         if kind in ("DIFF", "VARIABLE", "REQUEST", "MREQUEST") and name not in ours:
             x, off = values[0][:, k], np.abs(values[0][:, k] - values[1][:, k])
             size = float(np.abs(x).max(initial=0.0))
-            size = size if kind == "DIFF" else max(size, 1.0)
+            size = max(size, LIMP if kind == "DIFF" else 1.0)
             if kind != "DIFF" and len(off) > MANY:  # a jump that is shifted is one row far off
                 off = np.minimum(off, np.append(off[1:], off[-1:]))
             yield Channel("states", name, off, max(float(np.ptp(x)), error * size))

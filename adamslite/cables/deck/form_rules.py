@@ -132,3 +132,13 @@ def check_shape(spec: Spec, pieces: list[FreeSpan], model: CableModel, faults: F
             faults.add("bend-too-tight", ("route", i, "radius"), section=section, radius=radius)
     if spec.speed and not spec.closed:
         faults.add("speed-on-a-route", ("speed",))
+
+
+def tell_overstretched(spec: Spec, section: float = 0.0, *, faults: Faults) -> None:
+    """Why a cable cannot be laid: sections of this length are too long for a wheel, or weak."""
+    round_ = [(each.radius, i) for i, each in enumerate(spec.route) if each.is_round]
+    radius, i = min(round_, default=(0.0, 0))
+    if section > radius > 0.0:
+        faults.add("bend-too-tight", ("route", i, "radius"), section=section, radius=radius)
+    else:
+        faults.add("overstretched", ("cable", "EA"), stiffness=spec.cable.stiffness)

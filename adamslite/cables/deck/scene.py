@@ -4,7 +4,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from adamslite.cables.deck.deck_writer import Modelled, write
-from adamslite.cables.deck.form_rules import check_chain, check_form, check_shape
+from adamslite.cables.deck.form_rules import (
+    check_chain,
+    check_form,
+    check_shape,
+    tell_overstretched,
+)
 from adamslite.cables.description.components import Load
 from adamslite.cables.description.head_comments import Model, comments
 from adamslite.cables.description.messages import Faults
@@ -223,8 +228,8 @@ def _whole(write_it: Callable[[], str], spec: Spec, faults: Faults) -> str:
     """A deck whose cables can be as long as they are drawn."""
     try:
         return write_it()
-    except Overstretched:
-        faults.add("overstretched", ("cable", "EA"), stiffness=spec.cable.stiffness)
+    except Overstretched as fault:
+        tell_overstretched(spec, *fault.args, faults=faults)
         raise DeckError(sort_by_place(faults.found)) from None
 
 
@@ -308,8 +313,7 @@ def _check(
     spec: Spec, pieces: list[FreeSpan], moves: Moves, model: CableModel, faults: Faults
 ) -> None:
     """What only the model and the travel show."""
-    longest = max(reaches(spec, pieces))
-    count = model.elements
+    longest, count = max(reaches(spec, pieces)), model.elements
     held = stored(spec, moves) if model.form == "brute" else {}
     if model.form == "brute":
         total = sum(piece.length for piece in pieces) + sum(held.values())
@@ -342,11 +346,13 @@ def _check(
 def _supply(spec: Spec, pieces: list[FreeSpan], i: int) -> float:
     """Cable that the winch at an end can wind in [m].
 
-    Over wheels cable comes on: the span at the weight runs out; what is held stretches as a whole.
+    Over wheels cable comes on: the span at the weight runs out; what is held stretches as a whole,
+    and a block takes cable from all its falls.
     """
     group = stretches(spec)[0 if i == 0 else -1]
     last = group[-1] if i == 0 else group[0]
-    if any(spec.route[j].is_free for j in spec.pairs[last]):
+    blocks = any(each.is_wheel and each.gives_way for each in spec.route)
+    if not blocks and any(spec.route[j].is_free for j in spec.pairs[last]):
         return pieces[last].length
     return sum(pieces[p].length for p in group)
 
@@ -383,10 +389,9 @@ def _is_pushed(spec: Spec, pieces: list[FreeSpan], moves: Moves, faults: Faults)
 def _check_fixed(
     spec: Spec, model: CableModel, moves: Moves, section: float, faults: Faults
 ) -> None:
-    """Whether a section of fixed length can take the cable that comes over a wheel."""
-    route = spec.route
-    # Between two wheels there is one spring, which cable may run through.
-    sections = any(not (route[i].is_wheel and route[j].is_wheel) for i, j in spec.pairs)
+    """Whether a section of fixed length can take the cable that comes over a wheel; it may run
+    through those between two."""
+    sections = any(not all(spec.route[i].is_wheel for i in pair) for pair in spec.pairs)
     if model.level != 2 or model.form == "brute" or not sections or faults.errors:
         return
     if moves.way > section / 2:

@@ -186,8 +186,8 @@ MESSAGES: dict[str, Message] = SURROUNDINGS | {
         "axles, places, velocities and gravity in that plane, or another form",
     ),
     "bend-too-tight": Message(
-        "a section of {section:.4g} m does not fit round a bend of {radius:.4g} m",
-        "a wider bend, or more elements",
+        "a section of {section:.4g} m does not fit round a radius of {radius:.4g} m",
+        "a larger radius, or more elements",
     ),
     "speed-on-a-route": Message(
         "a cable with ends does not run along itself", "closed = true, or velocity of a mass"

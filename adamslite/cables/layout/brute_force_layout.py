@@ -208,7 +208,8 @@ def length(parts: list[Straight | Arc], pitch: float) -> float:
 
 
 class Overstretched(Exception):
-    """A stretch of cable that its tension at rest makes longer by half, or more."""
+    """A stretch of cable that its tension at rest makes longer by half, or more, or whose sections
+    of that length [m] are too long for its wheels."""
 
 
 def lay(
@@ -243,7 +244,7 @@ def lay(
     except (ArithmeticError, ValueError):  # stretched beyond all numbers
         brackets = False
     if not brackets:
-        raise Overstretched
+        raise Overstretched(guess)
     free = brentq(lambda x: walk(x, count)[1], low, high, **EXACTLY)
     nodes, _ = walk(free, count)
     begins, at = {}, 0.0
