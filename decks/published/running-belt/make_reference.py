@@ -55,7 +55,7 @@ force = "{slack:g}"
 [model]
 level = 3
 form = "ale"
-elements = 42
+elements = 1
 """
 
 for name, speed in (("slow", 1.0), ("fast", 20.0)):
