@@ -115,12 +115,14 @@ WRONG = reeving_mistakes.MISTAKES | water_mistakes.MISTAKES | {
     "slackens": (HANGS, "velocity = [0, 0, 0]", "velocity = [0, 2, 0]", (2, 1)),
     "goes-slack": (HANGS, "velocity = [0, 0, 0]", "velocity = [0, 2, 0]", (2, 1)),
     "unsettled": (LOWERS, "level = 3", "level = 3\naccuracy = 0.01\ntrial = 1e-3", (18, 1)),
+    "does-not-end": (ATWOOD.replace("end = 0.5", "end = 2.5\nsteps = 20"), "level = 1",
+                     "level = 3\nelements = 1", (24, 1)),
     "pretension": (HANGS, "rho = 0.1", "rho = 0.1\npretension = 2500", (5, 1)),
     "pushed": (LOWERS, "0.5*TIME**2", "6*TIME**2", (11, 1)),
     "pushed-at-once": (LOWERS, "0.5*TIME**2", "2*TIME", (11, 1)),
 }  # fmt: skip
 #: What only runs show.
-TRIED = {"goes-slack", "unsettled"}
+TRIED = {"goes-slack", "unsettled", "does-not-end"}
 BRUTE = {"stored-too-little", "brute-plane", "brute-cannot", "overstretched"}
 
 

@@ -264,3 +264,45 @@ def test_the_same_deck_twice() -> None:
     """Nothing of the clock is in it."""
     decks = {described(HOIST, "<text>", None, Progress()).deck.text for _ in range(2)}
     assert len(decks) == 1
+
+
+HAULED = """
+end = 20
+[cable]
+EA = 2e7
+rho = 3
+damping = 0.1
+[[route]]
+kind = "fixed"
+at = [0, 20, 0]
+[[route]]
+kind = "mass"
+at = [10, 17, 0]
+mass = 300
+slides = true
+haul = "STEP5(TIME,1,0,18,80)"
+[[route]]
+kind = "fixed"
+at = [100, 20, 0]
+[model]
+elements = 8
+"""
+
+
+def test_a_method_that_does_not_come_to_the_end_is_not_written() -> None:
+    """HHT stopped at 1.2 s of 20; GSTIFF ends."""
+    found = described(HAULED, "<text>", 10.0, Progress())
+    assert not found.deck.messages and found.deck.model.method == "GSTIFF, SI2"
+    assert "HHT did not come to an end" in found.deck.text.replace("\n! ", " ")
+    assert al.simulate(al.read(found.deck.text)).success
+
+
+def test_a_model_whose_run_does_not_end_is_told() -> None:
+    """With elements, which leave nothing to be tried."""
+
+    def fails(text: str, columns: tuple[str, ...], most: float) -> Solution:
+        return Solution(Series(np.empty(0), {}), 1.0, 1.0, "it stops at t = 1")
+
+    found = tried(setting(HUNG + "[model]\nelements = 3\n"), fails, 10.0)
+    assert codes(found) == ["does-not-end"]
+    assert not codes(tried(setting(HUNG + "[model]\nelements = 3\n"), fails, 0.0))

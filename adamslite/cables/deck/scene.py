@@ -17,7 +17,7 @@ from adamslite.cables.description.spec import Description, read, read_scene
 from adamslite.cables.description.surroundings_rules import check_surroundings
 from adamslite.cables.description.toml_places import Path
 from adamslite.cables.description.vocabulary import MOST_SECTIONS, Spec
-from adamslite.cables.layout.brute_force_layout import Overstretched, stretches
+from adamslite.cables.layout.brute_force_layout import Overstretched, stretches, supply
 from adamslite.cables.layout.catenary import start
 from adamslite.cables.layout.geometry import FreeSpan, reaches, spans, turned
 from adamslite.cables.model import bending_advice
@@ -85,9 +85,10 @@ class Drawn:
 
 @dataclass(frozen=True)
 class Setting(Drawn):
-    """The same, with its linear model."""
+    """The same, with its linear model, and the method where runs have shown it."""
 
     demand: Demand
+    method: str = ""
 
     def telling(self, code: str, path: Path, **words: object) -> "Setting":
         """With one message more."""
@@ -165,7 +166,10 @@ def chosen(of: Setting, faults: Faults, why: Reasons | None = None) -> CableMode
     shown it."""
     model = choose_model(as_borne(of.spec), of.pieces, of.moves, of.demand, faults)
     bending = bending_advice.sentences(of.given, of.pieces, min(tensions(of.given, of.pieces)))
-    return replace(model, reasons=replace(why or model.reasons, more=tuple(bending)))
+    reasons, method = replace(why or model.reasons, more=tuple(bending)), model.method
+    if of.method not in ("", method):
+        reasons = replace(reasons, method=f"{of.method}: {method} did not come to an end")
+    return replace(model, method=of.method or method, reasons=reasons)
 
 
 def written(of: Setting, why: Reasons | None = None) -> Written:
@@ -328,7 +332,7 @@ def _check(
         if each.reel and paid.most > each.reel.holds(each.radius):
             faults.add("stored-too-little", ("route", i, "reel"), value=paid.most,
                        held=each.reel.holds(each.radius))  # fmt: skip
-        length = _supply(spec, pieces, i)
+        length = supply(spec, pieces, i)
         key = ("route", i, "payout")
         if length + paid.least <= 0:
             faults.add("payout-too-far-in", key, time=paid.least_at, value=paid.least,
@@ -341,20 +345,6 @@ def _check(
     most = max(tensions(spec, pieces))
     if 0 < spec.cable.breaking < most:
         faults.add("breaking", ("cable", "breaking_load"), tension=most, limit=spec.cable.breaking)
-
-
-def _supply(spec: Spec, pieces: list[FreeSpan], i: int) -> float:
-    """Cable that the winch at an end can wind in [m].
-
-    Over wheels cable comes on: the span at the weight runs out; what is held stretches as a whole,
-    and a block takes cable from all its falls.
-    """
-    group = stretches(spec)[0 if i == 0 else -1]
-    last = group[-1] if i == 0 else group[0]
-    blocks = any(each.is_wheel and each.gives_way for each in spec.route)
-    if not blocks and any(spec.route[j].is_free for j in spec.pairs[last]):
-        return pieces[last].length
-    return sum(pieces[p].length for p in group)
 
 
 def _check_slack(

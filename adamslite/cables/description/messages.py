@@ -273,6 +273,11 @@ MESSAGES: dict[str, Message] = SURROUNDINGS | {
         "trial = {more:g} in [model], or --trial {more:g}, allows more of them",
         severity=WARNING,
     ),
+    "does-not-end": Message(
+        "the run of this model does not come to its end: {why}",
+        "another level, form or number of elements, or an earlier end",
+        severity=WARNING,
+    ),
     "pretension": Message(
         "{pretension:.4g} N of pretension where {hung:.4g} N hang: the cable starts out of balance,"
         " and the weight bounces",

@@ -207,6 +207,20 @@ def length(parts: list[Straight | Arc], pitch: float) -> float:
     return total
 
 
+def supply(spec: Spec, pieces: list[FreeSpan], i: int) -> float:
+    """Cable that the winch at an end can wind in [m].
+
+    Over wheels cable comes on: the span at the weight runs out; what is held stretches as a whole,
+    and a block takes cable from all its falls.
+    """
+    group = stretches(spec)[0 if i == 0 else -1]
+    last = group[-1] if i == 0 else group[0]
+    blocks = any(each.is_wheel and each.gives_way for each in spec.route)
+    if not blocks and any(spec.route[j].is_free for j in spec.pairs[last]):
+        return pieces[last].length
+    return sum(pieces[p].length for p in group)
+
+
 class Overstretched(Exception):
     """A stretch of cable that its tension at rest makes longer by half, or more, or whose sections
     of that length [m] are too long for its wheels."""

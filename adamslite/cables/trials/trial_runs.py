@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import inf
 
-from adamslite.cables.deck.scene import Setting, written
+from adamslite.cables.deck.scene import Setting, Written, written
 from adamslite.cables.description.vocabulary import MOST_SECTIONS
 from adamslite.cables.model import advice
 from adamslite.cables.model.demand import elastic_level
@@ -57,6 +57,10 @@ EVENTS = 30.0
 SHORT, AGAIN = 0.05, 3
 # Runs that may fail before others are not tried.
 FAILURES = 2
+# The method that is taken where another one does not come to an end.
+LAST = "GSTIFF, SI2"
+# Of the allowance: what a run of a model that is not tried may take, to show that it ends.
+PROOF = 0.1
 # Why a run ended that took more steps than it may.
 TOO_LONG = "a run took more steps than the trial may"
 
@@ -134,12 +138,31 @@ class Runs:
         solution = self.solve(deck.text, self.wanted, left)
         work = self._work(deck.model, solution.steps)
         self.spent += work
+        if solution.ended not in ("", TOO_LONG) and deck.model.method != LAST:
+            before, self.of = self.of, replace(self.of, method=LAST)
+            again = self._solved(option, share)
+            if again or self.was_cut:
+                return again
+            self.of = before
         if solution.ended:
             self.ended, self.was_cut = solution.ended, solution.ended == TOO_LONG
             return None
         read = read_off(self.of.spec, self.of.pieces, solution.run)
         option = replace(option, error=deck.model.error)
         return Tried(option, read, deck.model, work, solution.cpu)
+
+    def proven(self, proposed: Written) -> Written:
+        """What is proposed, with another method where it does not come to an end."""
+        steps = PROOF * self.allowance / self._work(proposed.model, 1.0)
+        ended = self.solve(proposed.text, (), steps).ended
+        if ended in ("", TOO_LONG) or proposed.model.method == LAST:
+            return proposed if ended in ("", TOO_LONG) else self._failing(ended)
+        self.of = replace(self.of, method=LAST)
+        return self.proven(written(self.of))
+
+    def _failing(self, ended: str) -> Written:
+        """What is proposed, with the message that no method ends its run."""
+        return written(self.of.telling("does-not-end", ("model",), why=ended))
 
     def timed(self, one: Tried) -> float:
         """CPU [s] of a run; a short one is timed again, for the first is often disturbed."""
