@@ -46,9 +46,9 @@ class Piece:
 def pieces(spec: Spec, spans: list[FreeSpan], elements: int = 1) -> list[Piece]:
     """One for every span; between two wheels its sections are as long as those of the longest."""
     pulls = spec.rests or tensions(spec, spans)
-    longest = max(span.length for span in spans)
+    longest = max(span.length for span in spans) or 1.0  # a ring is all bend
     return [
-        _piece(spec, p, span, pulls[p], ceil(elements * span.length / longest - WHOLE))
+        _piece(spec, p, span, pulls[p], max(ceil(elements * span.length / longest - WHOLE), 1))
         for p, span in enumerate(spans)
     ]
 

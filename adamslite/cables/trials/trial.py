@@ -82,9 +82,11 @@ def tried(of: Setting, solve: Solver, allowance: float) -> Found:
         With everything that is wrong with the description.
     """
     proposed = written(of)
+    if not allowance:
+        return Found(proposed)
     trial = Runs(of, solve, allowance)
-    if not allowance or not is_open(of, proposed.model):
-        return Found(trial.proven(proposed) if allowance else proposed)
+    if not is_open(of, proposed.model):
+        return Found(trial.proven(proposed))
     rungs = trial.climb(proposed.model)
     least = trial.least(rungs)
     if least < 0 and not of.spec.cable.pulls_only:
