@@ -57,6 +57,9 @@ WRONG = reeving_mistakes.MISTAKES | water_mistakes.MISTAKES | {
     "wrong-value": (ATWOOD, "mass = 5", 'mass = "5"', (8, 1)),
     "not-positive": (ATWOOD, "EA = 1e7", "EA = -1e7", (3, 1)),
     "not-a-share": (ATWOOD, "rho = 0.01", "rho = 0.01\ndamping = 2", (5, 1)),
+    "damped-twice": (
+        ATWOOD, "rho = 0.01", "rho = 0.01\ndamping = 0.1\ndamping_time = 1e-4", (5, 1)
+    ),
     "negative": (ATWOOD, "rho = 0.01", "rho = 0.01\npretension = -1", (5, 1)),
     "short-route": (ATWOOD[:LAST], ATWOOD[ATWOOD.index('kind = "pulley"') - 10 : LAST], "", (5, 1)),
     "wrong-end": (ATWOOD, 'kind = "mass"\nat = [2, -5, 0]\nmass = 3', 'kind = "pulley"\n'

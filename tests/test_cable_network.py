@@ -45,7 +45,7 @@ def test_a_payout_carries_the_weight_along() -> None:
     t = np.linspace(0, 5, 601)
     network = Network(
         (1.0, M), (Bar(((0, 1.0),), ((1, 1.0),), L, (EA, EA), points=(False, True)),), RHO, 5.0,
-        600, (0.0, 0.0), damper=2 * 0.9 * sqrt(EA * RHO), ways={0: 0.3 * t**2 / 2},
+        600, (0.0, 0.0), damping_time=1.8 * L * sqrt(RHO / EA), ways={0: 0.3 * t**2 / 2},
     )  # fmt: skip
     motion = respond(network, 1)
     stretch = (M + RHO * L / 2) * 0.3 * L / EA
@@ -60,7 +60,14 @@ def test_what_only_drifts_is_not_drowned_by_the_rates_of_sections(inertia: float
     t = np.linspace(0, 1, 601)
     bar = Bar(((0, 1.0),), ((1, 1.0),), 3.0, (1e7, 1e7), points=(False, True))
     network = Network(
-        (inertia, 30.0), (bar,), 0.002, 1.0, 600, (0.0, 0.0), damper=84.0, forces={0: 22 * 9.81}
+        (inertia, 30.0),
+        (bar,),
+        0.002,
+        1.0,
+        600,
+        (0.0, 0.0),
+        damping_time=2e-7,
+        forces={0: 22 * 9.81},
     )
     motion = respond(network, 128)
     drift = 22 * 9.81 * t**2 / 2 / (inertia + 30.0 + 0.006)

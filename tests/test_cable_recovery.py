@@ -48,7 +48,7 @@ def test_statements_amount_to_their_description(kind: str) -> None:
     level, number = FOUND[kind]
     text = described(kind, number, level=level, elements=3)
     asked, found = setting(text), route(statements(text))
-    for name in ("stiffness", "density", "damping"):
+    for name in ("stiffness", "density", "damping_time"):
         wanted = getattr(asked.spec.cable, name)
         assert getattr(found.spec.cable, name) == pytest.approx(wanted, rel=1e-6, abs=1e-9)
     ours, theirs = asked.spec.route, found.spec.route
@@ -78,7 +78,7 @@ def same(one: str, other: str) -> bool:
 def test_names_of_variables_and_ids_do_not_matter() -> None:
     """Nothing is found by what `cable` calls it."""
     text = statements(described("hoist", level=3, elements=3))
-    other = re.sub(r"\b(EA|rho|damper|S1|SD1|SDD1|LT1|H1|Dm1)\b", r"Q\1", text)
+    other = re.sub(r"\b(EA|rho|tau|S1|SD1|SDD1|LT1|H1|Dm1)\b", r"Q\1", text)
     other = re.sub(r"\b(100[0-9])\b", r"7\1", other)
     assert "QLT1" in other and "SFORCE/71002" in other
     assert same(other, text)

@@ -271,7 +271,6 @@ end = 20
 [cable]
 EA = 2e7
 rho = 3
-damping = 0.1
 [[route]]
 kind = "fixed"
 at = [0, 20, 0]

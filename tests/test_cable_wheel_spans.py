@@ -70,7 +70,7 @@ def test_a_front_passes_a_wheel_and_arrives_with_the_speed_of_sound(mass: float)
         [cable]
         EA = {stiffness}
         rho = {rho}
-        damping = 0.1
+        damping_time = {0.2 * length / 60 / c}
         pretension = 2e4
         [[route]]
         kind = "winch"

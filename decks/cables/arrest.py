@@ -16,12 +16,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from formulas import Cable
-from pulleys import RADIUS, payout_variables, pulley
+from pulleys import RADIUS, damped_variables, payout_variables, pulley
 from ropes import nodes, stored, tensions
 from scipy.integrate import solve_ivp
 from spans import table
 
-from adamslite.cables.statements.forms import Side, cable_variables, head, number, point, tail
+from adamslite.cables.statements.forms import Side, head, number, point, tail
 
 HOOK = 5000
 #: Of the hook on straight cables, relative.
@@ -132,7 +132,7 @@ def deck(a: Arrest, sides: tuple[Side, ...]) -> str:
         *(f"MARKER/{side.first}, PART=1, QP={number(a.sheave(side))},0,0" for side in sides),
         f"MARKER/{HOOK + 1}, PART=1, QP={number(a.offset)},0,0",
     )
-    text += cable_variables(a.cable, a.damping)
+    text += damped_variables(a.cable, a.damping)
     # Half a section of every side goes with the hook.
     hooked = a.mass * share + sum(
         a.cable.density * a.length(side) / a.sections / 2 for side in sides

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from formulas import Cable, G
 from laws import Law, Travel, law
-from pulleys import RADIUS, payout_variables
+from pulleys import RADIUS, damped_variables, payout_variables
 from ropes import Straight, balance, drum, nodes, tensions
 from scipy.integrate import solve_ivp
 from spans import FORMS, table
@@ -22,7 +22,6 @@ from sway import Ramp, most_sway, no_sway
 from adamslite.cables.statements.forms import (
     PULLEY,
     Side,
-    cable_variables,
     head,
     number,
     point,
@@ -242,7 +241,7 @@ def elastic(c: Crane, form: str, travel: Law, end: float) -> str:
         start everything hangs at rest.""",
         travel.text(),
     )
-    text += cable_variables(c.cable, DAMPING) + payout_variables(c.cable, n, c.length, side)
+    text += damped_variables(c.cable, DAMPING) + payout_variables(c.cable, n, c.length, side)
     text += tensions(side, n)
     half = c.cable.density * c.length / n / 2
     depths, _ = at_rest(c)

@@ -9,13 +9,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from formulas import Cable, G
 from laws import Law, Move, law
-from pulleys import payout_variables
+from pulleys import damped_variables, payout_variables
 from ropes import Straight, balance, drum, hanging, nodes, tensions
 from scipy.integrate import solve_ivp
 from scipy.optimize import fsolve
 from spans import FORMS, table
 
-from adamslite.cables.statements.forms import Side, cable_variables, head, number, point, tail
+from adamslite.cables.statements.forms import Side, head, number, point, tail
 
 BUCKET, HOUSE, SECTIONS, DAMPING = 5000, 2, 12, 0.2
 #: Of the bucket on straight ropes, relative.
@@ -85,7 +85,7 @@ def deck(d: Dragline, form: str, axes: str) -> str:
         "JOINT/1, REVOLUTE, I=6001, J=6002",
         f"MOTION/1, JOINT=1, FUNCTION={d.slew.text()}",
     )
-    text += cable_variables(d.cable, DAMPING)
+    text += damped_variables(d.cable, DAMPING)
     bucket, ropes = d.mass, ""
     for (side, start), places in zip(d.points, at_rest(d), strict=True):
         length = d.lengths(start)[0]

@@ -10,9 +10,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from formulas import Cable, G, Winch
 from payouts import hanging_deck
+from pulleys import damped_section, damped_variables
 from spans import Span, table
 
-from adamslite.cables.statements.forms import cable_variables, head, number, point, section, tail
+from adamslite.cables.statements.forms import head, number, point, tail
 
 DRUM = 9021
 DAMPING = 0.2
@@ -73,7 +74,7 @@ def deck(d: Drum) -> str:
         f"MARKER/{DRUM + 1}, PART=1, QP={number(-d.radius)},0,0",
         f"MARKER/{DRUM + 2}, PART=1",
     )
-    text += cable_variables(d.cable, DAMPING)
+    text += damped_variables(d.cable, DAMPING)
     text += f"VARIABLE/L_0, FUNCTION={number(d.section)}\n\n"
     places = d.places()
     x, y = places[n]
@@ -88,7 +89,7 @@ def deck(d: Drum) -> str:
         text += point(k + 1, d.weight if k == 0 else mass, places[k])
     text += "\n"
     for k in range(1, n + 1):
-        text += section(k, k, k + 1, "L_0", DAMPING)
+        text += damped_section(k, k, k + 1, "L_0", DAMPING)
     text += "\n! The drum carries what lies on it.\n"
     for k in range(1, n):
         text += (

@@ -6,7 +6,16 @@ Half of a symmetric span: the hook (HEAVY) is at x = -a and moves along y, the s
 from collections.abc import Iterator
 
 from formulas import Cable, Impact
-from pulleys import HEAVY, RADIUS, impedance, payout_variables, pulley, through_the_sheave
+from pulleys import (
+    HEAVY,
+    RADIUS,
+    damped_section,
+    damped_variables,
+    impedance,
+    payout_variables,
+    pulley,
+    through_the_sheave,
+)
 
 from adamslite.cables.statements.forms import (
     PULLEY,
@@ -158,11 +167,12 @@ def anchored_cable(impact: Impact, length: float, sections: int, damping: float)
         "PART/1, GROUND",
         "MARKER/1, PART=1                ! the anchor",
     )
-    text += cable_variables(cable, damping) + f"VARIABLE/L_0, FUNCTION={number(free)}\n\n"
+    text += damped_variables(cable, damping) + f"VARIABLE/L_0, FUNCTION={number(free)}\n\n"
     for k in range(1, sections + 1):
         s, mass = k * length / sections, cable.density * free if k < sections else HEAVY
         text += point(k + 1, mass, [-s * cosine, s * impact.sine], [0, impact.speed])
-    text += "\n" + "".join(section(k, k, k + 1, "L_0", damping) for k in range(1, sections + 1))
+    rows = (damped_section(k, k, k + 1, "L_0", damping) for k in range(1, sections + 1))
+    text += "\n" + "".join(rows)
     text += (
         "\n! Tension at the anchor and half way.\n"
         f"REQUEST/1, F2=SFORCE(1,0,1)\\ F3=SFORCE({sections // 2},0,1)\n"

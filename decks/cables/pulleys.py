@@ -1,12 +1,33 @@
 """What decks of a cable on a pulley hold besides what the statements of a description have."""
 
 from adamslite.cables.description.components import Cable
-from adamslite.cables.statements.forms import ONLY, PULLEY, Side, length_variables, number
+from adamslite.cables.statements.forms import (
+    ONLY,
+    PULLEY,
+    Side,
+    cable_variables,
+    length_variables,
+    number,
+    section,
+)
 
 BEARING = PULLEY + 1
 RADIUS = 0.5
 # "The impact speed is constant": the hook is a mass that no cable slows down.
 HEAVY = 1e9
+
+
+def damped_variables(cable: Cable, damping: float) -> str:
+    """Names for EA, rho and the damper of a section, a share of its critical damping."""
+    damper = f"VARIABLE/damper, FUNCTION=2*{damping:g}*SQRT(EA*rho)\n" if damping else ""
+    return cable_variables(cable) + damper
+
+
+def damped_section(s: int, i: int, j: int, free: str, damping: float) -> str:
+    """SFORCE/s as :func:`section`, with the damper beside it."""
+    grows = f"-SD{free[1:]}*DM({i},{j})/LT{free[1:]}" if free[0] == "H" else ""
+    damper = f"-damper*(VR({i},{j}){grows})\n" if damping else "\n"
+    return section(s, i, j, free)[:-1] + damper
 
 
 def impedance(s: int, i: int, cable: Cable, side: int = 1) -> str:

@@ -12,13 +12,13 @@ import numpy as np
 import strings
 from formulas import Cable, G
 from laws import Law, law
-from pulleys import RADIUS, payout_variables
+from pulleys import RADIUS, damped_variables, payout_variables
 from ropes import hanging, nodes, stored, tensions, wheel
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq, fsolve
 from spans import table
 
-from adamslite.cables.statements.forms import Side, cable_variables, head, number, tail, vforce
+from adamslite.cables.statements.forms import Side, head, number, tail, vforce
 
 CARRIAGE, WHEEL, DAMPING = 2, 9001, 0.2
 #: Of the car that coasts, relative.
@@ -128,7 +128,7 @@ def deck(r: Ropeway, title: str, notes: str, haul: Law | None, run: str) -> str:
         "JPRIM/1, ORIENTATION, I=1, J=8001",
     )
     text += f"MOTION/1, I=1, J=8001, X, FUNCTION={number(x)}{haul.text()}\n" if haul else ""
-    text += cable_variables(r.cable, DAMPING) + wheel(r.sides[0], CARRIAGE, (0.0, 0.0), r.wheel)
+    text += damped_variables(r.cable, DAMPING) + wheel(r.sides[0], CARRIAGE, (0.0, 0.0), r.wheel)
     text = text.replace(
         f"QG=0,0,0\nMARKER/{WHEEL}", f"QG={number(x)},{number(y)},0\nMARKER/{WHEEL}"
     )

@@ -5,9 +5,9 @@ from math import ceil, log10
 
 import numpy as np
 from formulas import Cable
-from pulleys import payout_variables
+from pulleys import damped_section, damped_variables, payout_variables
 
-from adamslite.cables.statements.forms import cable_variables, head, section
+from adamslite.cables.statements.forms import head
 
 FORMS = ("paper", "ale")
 
@@ -32,14 +32,14 @@ class Span:
         text = head(f"{title} ({self.form})", notes, "", "PART/1, GROUND", *lines)
         return (
             text
-            + cable_variables(self.cable, self.damping)
+            + damped_variables(self.cable, self.damping)
             + payout_variables(self.cable, self.sections, self.length)
         )
 
     def sections_text(self) -> str:
         """All of them."""
         return "\n" + "".join(
-            section(k, k, k + 1, "H", self.damping) for k in range(1, self.sections + 1)
+            damped_section(k, k, k + 1, "H", self.damping) for k in range(1, self.sections + 1)
         )
 
 

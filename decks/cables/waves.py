@@ -4,9 +4,9 @@ from collections.abc import Iterator
 
 import numpy as np
 from formulas import Cable, Impact
-from pulleys import HEAVY, impedance
+from pulleys import HEAVY, damped_section, damped_variables, impedance
 
-from adamslite.cables.statements.forms import cable_variables, head, number, point, section, tail
+from adamslite.cables.statements.forms import head, number, point, tail
 
 LENGTH = 15.0
 REFERENCE = Cable(6.0e7, 5.536, 13345.0), 10.0
@@ -45,7 +45,7 @@ def chain(cable: Cable, sections: int, first: int, y: float, struck, speed, damp
         else:
             text += point(first + k, struck + mass / 2, [x, y], speed)
     for k in range(1, sections + 1):
-        text += section(first + k, first + k - 1, first + k, "L_0", damping)
+        text += damped_section(first + k, first + k - 1, first + k, "L_0", damping)
     return text
 
 
@@ -53,7 +53,7 @@ def start(title: str, notes: str, cable: Cable, sections: int, damping: float, *
     """Everything before the chains."""
     free = LENGTH / sections / (1 + cable.strain)
     text = head(title, notes, "", "PART/1, GROUND", *lines)
-    return text + cable_variables(cable, damping) + f"VARIABLE/L_0, FUNCTION={number(free)}\n"
+    return text + damped_variables(cable, damping) + f"VARIABLE/L_0, FUNCTION={number(free)}\n"
 
 
 def step_deck(cable: Cable, speed: float, sections: int) -> str:

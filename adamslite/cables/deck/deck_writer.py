@@ -92,7 +92,7 @@ def _cable(each: Modelled) -> str:
     spec, spans, model = each.spec, each.spans, each.model
     own, text = "", ""
     if model.level > 1:
-        own = cable_variables(spec.cable, spec.cable.damping) + constants(spec)
+        own = cable_variables(spec.cable, spec.cable.damping_time) + constants(spec)
     speed = start_speed(spec, each.moves)
     for i, station in enumerate(spec.route):
         text += wheel(spec, i, speed) if station.is_wheel else ""

@@ -28,6 +28,7 @@ from adamslite.cables.model.model_choice import (
     CableModel,
     Reasons,
     choose_model,
+    damped,
     demand_of,
     needs_brute,
     tensions,
@@ -156,9 +157,10 @@ def _drawn(text: str, given: Spec, faults: Faults) -> Drawn:
 
 def _ready(text: str, rope: Rope) -> Drawn:
     """Ready to be written."""
-    spec = _essential(rope.spec, rope.spans)
+    given = damped(rope.spec, rope.spans, rope.laws)
+    spec = _essential(given, rope.spans)
     moves = estimate_moves(as_borne(spec), rope.spans, rope.laws)
-    return Drawn(text, rope.spec, spec, rope.spans, moves, rope.laws, rope.faults)
+    return Drawn(text, given, spec, rope.spans, moves, rope.laws, rope.faults)
 
 
 def chosen(of: Setting, faults: Faults, why: Reasons | None = None) -> CableModel:

@@ -14,7 +14,8 @@ class Cable:
     `pulls_only` says that a slack section carries nothing; else it pushes. With `parts` it parts at
     the tension `breaking`. `length` is that of the
     unstretched cable between two ends, 0 where it follows from the tension [m]. `bending` is EI
-    [N m^2], and a rate of the curvature counts for `bending_damping` [s] of it.
+    [N m^2], and a rate of the curvature counts for `bending_damping` [s] of it; a rate of the
+    strain for `damping_time` [s], which follows from the share `damping` where that is given.
     """
 
     stiffness: float
@@ -28,6 +29,7 @@ class Cable:
     length: float = 0.0
     bending: float = 0.0
     bending_damping: float = 0.0
+    damping_time: float = 0.0
 
     @property
     def speed(self) -> float:

@@ -44,6 +44,7 @@ CABLE: Rules = {
     "breaking_load": ("number", "not-positive", 0.0),
     "parts": ("yes or no", "", False),
     "damping": ("number", "not-a-share", 0.0),
+    "damping_time": ("number", "negative", 0.0),
     "pulls_only": ("yes or no", "", False),
 }
 MODEL: Rules = {

@@ -9,6 +9,9 @@ SURROUNDINGS = {
         "gravity = [0, -9.81, 0], or leave {word} out",
     ),
     "no-bending": Message("{word} is for a cable that resists bending", "bending = EI in [cable]"),
+    "damped-twice": Message(
+        "damping and damping_time both say how the material damps", "leave one of them out"
+    ),
     "length-of-what": Message(
         "length is that of a cable between two fixed points, and the route has others",
         "leave length out: what hangs on the cable and pretension give it",

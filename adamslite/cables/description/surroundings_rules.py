@@ -60,14 +60,22 @@ def check_surroundings(spec: Spec, faults: Faults) -> None:
         faults.add("parts-where", ("cable", "parts"))
     for law in filter(None, spec.water.current if spec.water else ()):
         parse(law, ("water", "current"), faults)
+    _check_damping(spec, faults)
     if not spec.cable.bending:
-        if spec.cable.bending_damping:
-            faults.add("no-bending", ("cable", "bending_damping"), word="bending_damping")
         for i, each in enumerate(spec.route):
             if any(each.clamped):
                 faults.add("no-bending", ("route", i, "clamped"), word="clamped")
     if spec.cable.length:
         _check_length(spec, faults)
+
+
+def _check_damping(spec: Spec, faults: Faults) -> None:
+    """The damping of the material is given once, and that of bending where there is any."""
+    cable = spec.cable
+    if cable.damping and cable.damping_time:
+        faults.add("damped-twice", ("cable", "damping"))
+    if cable.bending_damping and not cable.bending:
+        faults.add("no-bending", ("cable", "bending_damping"), word="bending_damping")
 
 
 def _check_heights(spec: Spec, faults: Faults) -> None:

@@ -108,7 +108,7 @@ def _machine(
     strings = _strings(spec, spans, ends, places, draft, drives, times)
     network = Network(
         tuple(draft.masses), tuple(bars), rho, spec.end, count, tuple(draft.speeds),
-        damper=2 * spec.cable.damping * sqrt(spec.cable.stiffness * rho),
+        damping_time=spec.cable.damping_time,
         ways={j: way(times) for j, way in draft.ways.items()},
         forces={j: f(times) if callable(f) else f for j, f in draft.forces.items()},
         across=tuple(_held_across(spec, spans, ends, places)),

@@ -7,8 +7,9 @@ h = R/10, R/14, R/20 and R/28 swings by 1.5, 0.9, 0.25 and 0.12 % of the tension
 """
 
 from dataclasses import dataclass, replace
-from math import ceil, sqrt
+from math import ceil, pi, sqrt
 
+from adamslite.cables.description.components import Cable
 from adamslite.cables.description.messages import Faults
 from adamslite.cables.description.vocabulary import MOST_SECTIONS, Spec
 from adamslite.cables.layout.brute_force_layout import stretches
@@ -18,6 +19,7 @@ from adamslite.cables.model.advice import error_bound, integrator
 from adamslite.cables.model.demand import Demand
 from adamslite.cables.model.estimate import Laws, Moves, moving_mass
 from adamslite.cables.model.machine import machine
+from adamslite.cables.model.network import first_axial
 from adamslite.cables.model.response import Errors, Machine, is_usable
 from adamslite.cables.vectors import AXES, ZERO, add, dot, part_across, unit
 
@@ -33,6 +35,8 @@ RIGID_ERROR = 1e-7
 GROWN, SHORTEST = 0.1, 0.05
 # Of the least load: tensions that fall below zero by less need not.
 SLACK = 0.1
+# Of a span, for its first axial mode.
+AXIAL_SECTIONS = 8
 # An arc that is long enough to have to be round [rad].
 LIES = 0.1
 
@@ -152,7 +156,7 @@ def choose_model(
 ) -> CableModel:
     """The model that the description requests, or what `accuracy` needs."""
     p = spec.accuracy
-    figures = _figures(of, moves)
+    figures = [*_figures(of, moves), *_damping(spec.cable)]
     level, why = _level(spec, spans, of, moves)
     form, why_form = _form(spec, spans, of, level, moves)
     count, why_count = _elements(spec, spans, of, form)
@@ -191,6 +195,27 @@ def _tell_pretension(spec: Spec, spans: list[FreeSpan], level: int, faults: Faul
                    pretension=spec.cable.pretension)  # fmt: skip
 
 
+def damped(spec: Spec, spans: list[FreeSpan], prescribed: Laws) -> Spec:
+    """With the time of its damping from the share of the critical one of its first axial mode: as
+    it starts or, where it has no linear model, with its ends held."""
+    cable, rate = spec.cable, 0.0
+    if not cable.damping:
+        return spec
+    found = None
+    if _is_linear(spec, spans):
+        found = machine(spec, spans, tensions(spec, spans), prescribed)
+    if found and is_usable(found):
+        rate = first_axial(found.network, AXIAL_SECTIONS)
+    held = (2 if spec.closed else 1) * pi * cable.speed / sum(span.length for span in spans)
+    return replace(spec, cable=replace(cable, damping_time=2 * cable.damping / (rate or held)))
+
+
+def _is_linear(spec: Spec, spans: list[FreeSpan]) -> bool:
+    """Whether it may have a linear model."""
+    brute = spec.form == "brute" or needs_brute(spec, spans)
+    return not (brute or spec.water or spec.bed or spec.cable.length)
+
+
 def _machines(
     spec: Spec, spans: list[FreeSpan], moves: Moves, prescribed: Laws
 ) -> tuple[Machine, ...]:
@@ -215,9 +240,7 @@ def _machines(
 def demand_of(spec: Spec, spans: list[FreeSpan], moves: Moves, prescribed: Laws) -> Demand:
     """The demand of a description, with its linear model where there is one."""
     of = demand_on_longest(spec, spans, moves)
-    if spec.form == "brute" or needs_brute(spec, spans):
-        return of
-    if spec.water or spec.bed or spec.cable.length:
+    if not _is_linear(spec, spans):
         return of
     if of.across >= demand.SMALL_SLOPE * of.struck_wave:
         return of
@@ -348,6 +371,14 @@ def _integrator(
     error, says = (spec.error, "as asked") if spec.error else (error, says)
     name = method.split(",")[0]
     return method, error, f"{name}: {why}", says
+
+
+def _damping(cable: Cable) -> list[str]:
+    """What a share of critical damping comes to."""
+    if not cable.damping:
+        return []
+    found = cable.damping / cable.damping_time / pi
+    return [f"first axial mode {found:.3g} Hz, damping_time {cable.damping_time:.3g} s"]
 
 
 def _figures(of: Demand, moves: Moves) -> list[str]:

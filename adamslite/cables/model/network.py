@@ -3,7 +3,7 @@
 Coordinates are the way of each wheel's rim along the route, the displacements of weights and
 carriages, and of the nodes in the sections of the spans. With B the elongation of all sections,
 
-    M u" + C u' + K u = f - B' k d,     K = B' k B + K_across,     C = B' c B,     k = EA/H
+    M u" + C u' + K u = f - B' k d,     K = B' k B + K_across,     C = B' k tau B,     k = EA/H
 
 where d are elongations given from outside: what a cable needs that moves across its line. What laws
 prescribe, u_P, has the static shape G = -K_FF^-1 K_FP, and w = u_F - G u_P vibrates in modes:
@@ -67,7 +67,7 @@ class Network:
     end: float
     instants: int
     speeds: tuple[float, ...]
-    damper: float = 0.0
+    damping_time: float = 0.0
     ways: Mapping[int, np.ndarray] = field(default_factory=dict)
     forces: Mapping[int, np.ndarray | float] = field(default_factory=dict)
     across: tuple[tuple[tuple[int, ...], np.ndarray], ...] = ()
@@ -277,8 +277,8 @@ def _modes(of: Network, at: Sections) -> Modes:
     modes = Modes(of.times, lower.T @ shapes.T, at.mass[np.ix_(free, free)], rates)
     still = rates > LIMP * rates.max(initial=0.0)
     modes.held = (modes.shapes[:, still] / rates[still]) @ columns[:, still].T
-    damped = (at.b[:, free] @ modes.shapes) ** 2
-    modes.damping = np.minimum(of.damper * damped.sum(axis=0) / (2 * modes.rates), CREEPS)
+    damped = of.damping_time * at.k @ (at.b[:, free] @ modes.shapes) ** 2
+    modes.damping = np.minimum(damped / (2 * modes.rates), CREEPS)
     return modes
 
 
@@ -291,6 +291,15 @@ def _at_ends(at: Sections, pulls: np.ndarray, fast: np.ndarray, rests: bool = Tr
         found[:, 2 * p] = pulls[:, row] - half * at_start
         found[:, 2 * p + 1] = pulls[:, row + count - 1] + half * at_finish
     return found
+
+
+def first_axial(of: Network, n: int) -> float:
+    """Rate of the slowest mode of a network with `n` sections in a span that stretches them more
+    than it swings; 0 without one."""
+    at = Sections(of, n)
+    modes = _modes(of, at)
+    stretched = at.k @ (at.b[:, at.free] @ modes.shapes) ** 2
+    return float(min(modes.rates[stretched > modes.rates**2 / 2], default=0.0))
 
 
 def _rigid(of: Network, at: Sections, ways: np.ndarray, extra: np.ndarray | None) -> Motion:

@@ -66,7 +66,7 @@ def demand_on(
     tips = [deck.find(*node).mass / ucf for node in _tips(chain)]
     rope = _Rope(
         stiffness, mean(masses) * n / free, free, sum(tips) - mean(masses) / 2, end,
-        mean(damper(link, posture) for link in chain.links),
+        mean(damper(link, posture) / link.stiffness for link in chain.links),
     )  # fmt: skip
     travel, gained, law = travel_of(chain, posture, end, rope.instants)
     weight = mean(masses) * n * abs(shape.pull)
@@ -107,15 +107,15 @@ def _is_loaded(chain: Chain, posture: Posture) -> bool:
 
 @dataclass(frozen=True)
 class _Rope:
-    """EA, rho, free length of a chain, the mass at its tip, the time of the run, and the damper of
-    a section, which one of another length has, too."""
+    """EA, rho, free length of a chain, the mass at its tip, the time of the run, and that of its
+    damping: of a rate of the strain."""
 
     stiffness: float
     density: float
     length: float
     tip: float
     end: float
-    damper: float
+    damping_time: float
 
     @property
     def instants(self) -> int:
@@ -156,7 +156,7 @@ def _machine(chain: Chain, shape: ChainShape, rope: _Rope, law: np.ndarray | Non
               points=(False, True), falls=falls)  # fmt: skip
     network = Network(
         (1.0, rope.tip), (bar,), rope.density, rope.end, len(way) - 1, (0.0, dot(speed, line)),
-        damper=rope.damper, ways={0: way}, forces={1: rope.tip * pull - rests[1]},
+        damping_time=rope.damping_time, ways={0: way}, forces={1: rope.tip * pull - rests[1]},
     )  # fmt: skip
     aside = norm(part_across(speed, line))
     strings: tuple[String, ...] = ()

@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import partial
-from math import isclose, sqrt
+from math import isclose
 from statistics import mean
 from typing import NamedTuple
 
@@ -54,8 +54,6 @@ LOOSE = 1.05
 AS_HUNG = 2e-3
 # Measures of other wheels, and states.
 TURNS = ("AX", "AY", "AZ", "DIF")
-# Of critical damping: what a description may have.
-CREEPING = 0.99
 ROUND_OFF = 1e-9
 # An accuracy, where none is asked for.
 ANY = 0.01
@@ -124,17 +122,16 @@ class _Recovery:
         for chain, _ in self.route.chains:
             stiffness = mean(link.stiffness * link.free for link in chain.links)
             density = self._lump(chain) / mean(link.free for link in chain.links)
-            rate = mean(damper(link, self.posture) for link in chain.links)
-            kinds.append((stiffness, density, rate / 2 / sqrt(stiffness * density)))
-        stiffness, density, damping = (float(value) for value in np.mean(kinds, axis=0))
+            times = (damper(link, self.posture) / link.stiffness for link in chain.links)
+            kinds.append((stiffness, density, mean(times)))
+        stiffness, density, damping_time = (float(value) for value in np.mean(kinds, axis=0))
         for values in zip(*kinds, strict=True):
             if max(values) - min(values) > ALIKE * max(values):
                 raise Unknown
         links = (link for chain, _ in self.route.chains for link in chain.links)
         pulls_only = any(any(calls(node, "MAX")) for link in links for node in link.components)
         return Cable(
-            stiffness=stiffness, density=density, damping=min(damping, CREEPING),
-            pulls_only=pulls_only,
+            stiffness=stiffness, density=density, damping_time=damping_time, pulls_only=pulls_only,
         )  # fmt: skip
 
     def _lump(self, chain: Chain) -> float:

@@ -87,27 +87,31 @@ def point(i: int, mass: float, place: Vector, speed: Sequence[float] = ()) -> st
     )
 
 
-def cable_variables(cable: Cable, damping: float = 0.0) -> str:
-    """Names for EA, rho and, with a share of critical damping, the damper of a section."""
+def cable_variables(cable: Cable, damping_time: float = 0.0) -> str:
+    """Names for EA, rho and, with damping, the time tau of T = EA (strain + tau strain rate)."""
     text = (
         f"\nVARIABLE/EA, FUNCTION={number(cable.stiffness)}\n"
         f"VARIABLE/rho, FUNCTION={number(cable.density)}\n"
     )
-    if damping:
-        text += f"VARIABLE/damper, FUNCTION=2*{damping:g}*SQRT(EA*rho)\n"
+    if damping_time:
+        text += f"VARIABLE/tau, FUNCTION={number(damping_time)}\n"
     return text
 
 
 def section(
-    s: int, i: int, j: int, free: str, damping: float = 0.0, pulls_only: bool = False
+    s: int, i: int, j: int, free: str, damped: bool = False, pulls_only: bool = False
 ) -> str:
     """SFORCE/s between MARKER/i and MARKER/j of the free length `free`: L_0, or H of a side."""
+    pull = elastic(i, j, free, damped)
+    pull = f"MAX(0,{pull})" if pulls_only else pull
+    return f"SFORCE/{s}, I={i}, J={j}, FUNCTION=-{pull}\n"
+
+
+def elastic(i: int, j: int, free: str, damped: bool) -> str:
+    """EA (strain + tau strain rate) between MARKER/i and MARKER/j."""
     grows = f"-SD{free[1:]}*DM({i},{j})/LT{free[1:]}" if free[0] == "H" else ""
-    damper = f"-damper*(VR({i},{j}){grows})" if damping else ""
-    if pulls_only:
-        pull = f"EA*(DM({i},{j})/{free}-1){damper.replace('-', '+', 1)}"
-        return f"SFORCE/{s}, I={i}, J={j}, FUNCTION=-MAX(0,{pull})\n"
-    return f"SFORCE/{s}, I={i}, J={j}, FUNCTION=-EA*(DM({i},{j})/{free}-1){damper}\n"
+    rate = f"+tau*(VR({i},{j}){grows})/{free}" if damped else ""
+    return f"EA*(DM({i},{j})/{free}-1{rate})"
 
 
 def length_variables(a: str, sections: int, length: float, ways: list[str]) -> str:

@@ -176,9 +176,8 @@ def _stretch(spec: Spec, s: Stretch, speed: float) -> str:
             text += point(i, half * mass, node.place, [speed * x for x in node.along])
     for k in range(count):
         i, j = s.node(k, spec), s.node(k + 1, spec)
-        text += section(
-            1000 * s.number + k + 1, i, j, f"L{s.number}", cable.damping, cable.pulls_only
-        )
+        damped = cable.damping_time > 0
+        text += section(1000 * s.number + k + 1, i, j, f"L{s.number}", damped, cable.pulls_only)
     return text
 
 

@@ -27,6 +27,7 @@ from adamslite.cables.statements.ends import end
 from adamslite.cables.statements.forms import (
     AXES,
     Side,
+    elastic,
     gravity,
     grown,
     grown_tip,
@@ -177,6 +178,7 @@ def side_of(spec: Spec, piece: Piece, model: CableModel) -> Side:
 def _chain(spec: Spec, model: CableModel, piece: Piece) -> str:
     """Nodes and sections."""
     n, p, cable = model.elements, piece.number, spec.cable
+    damped = cable.damping_time > 0
     free, places = _hanging(spec, model, piece)
     side, axes = side_of(spec, piece, model), _axes(spec)
     grows = model.level == 3 and spec.route[piece.root].feeds
@@ -193,7 +195,7 @@ def _chain(spec: Spec, model: CableModel, piece: Piece) -> str:
         i = root_marker(spec, piece) if k == 1 else side.node(k - 1)
         name = f"H{p}" if grows else f"L{p}_0" if k == 1 else f"L{p}"
         if not is_still(spec, model, piece):
-            own = section(side.first + k, i, side.node(k), name, cable.damping, cable.pulls_only)
+            own = section(side.first + k, i, side.node(k), name, damped, cable.pulls_only)
             text += parting(spec, piece, own) if k == 1 else own
     text += write_around(spec, row_of(spec, model, piece), axes) + _clamps(spec, model, piece)
     if spec.route[piece.root].slides:
@@ -272,11 +274,7 @@ def _pull(spec: Spec, model: CableModel, piece: Piece, grows: bool) -> str:
 
 def spring(spec: Spec, piece: Piece, i: int, j: int, free: str) -> str:
     """Tension of a section between two markers, of the free length H or L of its span."""
-    p, pull = piece.number, f"EA*(DM({i},{j})/{free}-1)"
-    if spec.cable.damping:
-        rate = f"-SD{p}*DM({i},{j})/LT{p}" if free[0] == "H" else ""
-        pull += f"+damper*(VR({i},{j}){rate})"
-    pull = pulled(spec, pull)
+    p, pull = piece.number, pulled(spec, elastic(i, j, free, spec.cable.damping_time > 0))
     at_root = root_marker(spec, piece) in (i, j)
     return f"(1-broken_{p})*({pull})" if spec.cable.parts and at_root else pull
 

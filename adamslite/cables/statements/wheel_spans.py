@@ -135,12 +135,13 @@ def _section(spec: Spec, piece: Piece, k: int, spacing: str, rate: str) -> str:
     if n > 1:
         length = f"({spacing}/{n}{_differences(piece, 'w', (k, 1), (k - 1, -1))})"
         free = f"(LT{p}/{n})"
-    force = f"EA*({length}/{free}-1)"
-    if spec.cable.damping:
+    force, rates = f"{length}/{free}-1", ""
+    if spec.cable.damping_time:
         ends = f"VR({piece.first},{piece.first + 1})" if is_moving(spec, piece) else ""
         ends += f"/{n}" if ends and n > 1 else ""
         faster = _differences(piece, "v", (k, 1), (k - 1, -1))
-        force += f"+damper*({ends}{faster}-{rate}*{length}/LT{p})"
+        rates = f"+tau*({ends}{faster}-{rate}*{length}/LT{p})/{free}"
+    force = f"EA*({force}{rates})"
     text, tag = "", f"{p}" if k == 1 else f"{p}_{k}"
     if spec.cable.pulls_only and spec.grips:
         text = f"VARIABLE/pull_{tag}, FUNCTION={force}\n"

@@ -15,17 +15,13 @@ from tape import Tape  # noqa: E402
 PLACES = ((0, 0), (0, 0.2), (0.3, 0.2), (0.3, 0), (0.6, 0))
 # Radii, positive for wheels that the tape turns counterclockwise.
 TURNED = (0.05, -0.015, -0.02, 0.015, 0.03)
+DAMPING_TIME = 8.9e-5
 
 
 class Gripped(Tape):
-    """Rollers pass on as much unstretched tape as their rims turn; T = EA e - z l' L/l in the
-    middle of a span, whose mass lies half at either wheel, T -+ m s" there.
+    """Rollers pass on as much unstretched tape as their rims turn; T = EA (e - tau l' L/l^2) in
+    the middle of a span, whose mass lies half at either wheel, T -+ m s" there.
     """
-
-    @property
-    def damper(self) -> float:
-        """Half the critical damping of a section."""
-        return 0.5 * 2 * np.sqrt(self.ea * self.rho)
 
     def tape(self, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Tensions (4,) and rates of the free lengths (4,) in the state y."""
@@ -33,7 +29,7 @@ class Gripped(Tape):
         ra, rb = self.pack(0, moved[0])[0], self.pack(1, moved[1])[0]
         flow = np.array([ra * w[0], *(w[1:4] * self.rollers), rb * w[4]])
         rate, length = flow[:-1] - flow[1:], np.array(self.spans)
-        return self.ea * (length / free - 1) - self.damper * rate * length / free, rate
+        return self.ea * (length / free - 1 - DAMPING_TIME * rate * length / free**2), rate
 
     def rates(self, y: np.ndarray) -> np.ndarray:
         """y' with the mass of the spans: (J + m r^2) w' = torque - m r r' w of a reel."""

@@ -34,14 +34,14 @@ class Rope:
     length: float
     top: tuple
     hook: tuple
-    damping: float = 0.0
+    damping_time: float = 0.0
     sections: int = 1
     pulls_only: bool = False
 
     def tension(self, long, grows, free, pays):
-        """In the middle, with the damper of its sections."""
-        damper = 2 * self.damping * np.sqrt(self.ea * self.rho) / self.sections
-        pull = self.ea * (long / free - 1) + damper * (grows - pays * long / free)
+        """In the middle: EA (strain + tau strain rate)."""
+        rate = (grows - pays * long / free) / free
+        pull = self.ea * (long / free - 1 + self.damping_time * rate)
         return max(pull, 0.0) if self.pulls_only else pull
 
 
@@ -133,14 +133,16 @@ def lifted(lift, end, rows, place, bounds):
     return table(["time", *columns], lines, [t, *columns.values()], 1e-9)
 
 
-def parted(mass, stiffness, heights, breaking, paid, rho):
+def parted(mass, stiffness, heights, breaking, paid, rho, times):
     """A point on two ropes that just reach it; the first one parts at its root."""
     soft = np.divide(heights, stiffness)
     shares = mass * G / soft / sum(1 / soft)
     lengths = np.divide(heights, 1 + shares / stiffness)
     ropes = [
-        Rope(ea, rho, length, (0, high - 10), (0, -10), damping=0.2, pulls_only=k > 0)
-        for k, (ea, length, high) in enumerate(zip(stiffness, lengths, heights, strict=True))
+        Rope(ea, rho, length, (0, high - 10), (0, -10), damping_time=tau, pulls_only=k > 0)
+        for k, (ea, length, high, tau) in enumerate(
+            zip(stiffness, lengths, heights, times, strict=True)
+        )
     ]
     whole = Lift(mass, 0, (0, -10), tuple(ropes), paid)
     left = replace(whole, ropes=(ropes[1],))
@@ -282,16 +284,20 @@ def equalising_beam():
 
 
 FALLS = Lift(500, 0, (0, -10), (
-    Rope(4e6, 0.4, 10, (0, 0), (0, -10), 0.2, 2), Rope(1e6, 0.1, 12, (0, 2), (0, -10), 0.2, 2),
+    Rope(4e6, 0.4, 10, (0, 0), (0, -10), 6.32e-4, 2),
+    Rope(1e6, 0.1, 12, (0, 2), (0, -10), 7.59e-4, 2),
 ), -1.5)  # fmt: skip
 LOWERED = Lift(3000, 0, (0, -10), (
-    Rope(9e6, 1.2, 9.98, (0, 0), (0, -10), 0.3, 3), Rope(2e7, 2, 12.01, (0, 2), (0, -10), 0.3, 3),
+    Rope(9e6, 1.2, 9.98, (0, 0), (0, -10), 7.3e-4, 3),
+    Rope(2e7, 2, 12.01, (0, 2), (0, -10), 7.59e-4, 3),
 ), 4.0)  # fmt: skip
 BEAM = Lift(600, 700, (0.5, -10.3), (
-    Rope(8e5, 0.02, 10, (-2, 0), (-2, -10), 0.2), Rope(2e5, 0.02, 10, (2, 0), (2, -10), 0.2),
+    Rope(8e5, 0.02, 10, (-2, 0), (-2, -10), 6.32e-4),
+    Rope(2e5, 0.02, 10, (2, 0), (2, -10), 1.26e-3),
 ), -1.5)  # fmt: skip
 SHORT = Lift(90, 30, (-0.2, -4.5), (
-    Rope(6e4, 0.01, 4.1, (-0.7, 0), (-0.7, -4), 0.3), Rope(3e5, 0.03, 4, (0.7, 0), (0.7, -4), 0.3),
+    Rope(6e4, 0.01, 4.1, (-0.7, 0), (-0.7, -4), 9.8e-4),
+    Rope(3e5, 0.03, 4, (0.7, 0), (0.7, -4), 7.59e-4),
 ), 2.5)  # fmt: skip
 DROPPED = Lift(400, 0, (0, -10), (
     Rope(5e5, 0.005, 10, (0, 0), (0, -10), pulls_only=True),
@@ -308,8 +314,10 @@ CASES = {
     "beam-lowered": lambda: lifted(SHORT, 3, 60, "PART/50", (1e-4, 1e-3)),
     "late": lambda: lifted(DROPPED, 2, 200, "POINT_MASS/50", (1e-4, 1e-2)),
     "late-soft": lambda: lifted(SNATCHED, 2, 200, "POINT_MASS/50", (2e-4, 1e-2)),
-    "parting": lambda: parted(500, (4e6, 1e6), (10, 12), 4700, -1.5, 0.002),
-    "parting-lowered": lambda: parted(220, (6e5, 2e6), (10, 12), 700, 3.0, 0.001),
+    "parting": lambda: parted(500, (4e6, 1e6), (10, 12), 4700, -1.5, 0.002, (8.94e-5, 2.15e-4)),
+    "parting-lowered": lambda: parted(
+        220, (6e5, 2e6), (10, 12), 700, 3.0, 0.001, (1.63e-4, 1.07e-4)
+    ),
     "equaliser": equaliser,
     "beam-on-beam": equalising_beam,
 }

@@ -24,7 +24,7 @@ rho = 165
 diameter = 0.396
 length = 170
 bending = 120.8e3
-damping = 0.5
+damping_time = 0.000945
 
 [water]
 density = 1000

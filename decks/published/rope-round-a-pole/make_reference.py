@@ -20,7 +20,7 @@ error = 1e-6
 [cable]
 EA = 1e6
 rho = 1e-3
-damping = 0.99
+damping_time = 6.26e-05
 
 [[route]]
 kind = "mass"

@@ -27,7 +27,7 @@ gravity = [0, 0, 0]
 EA = 1e6
 rho = {rho:g}
 pretension = {slack:g}
-damping = 0.99
+damping_time = 0.396
 
 # It draws the belt in: up to speed within 8 s, steadily behind that.
 [[route]]
