@@ -236,6 +236,55 @@ def test_a_winch_that_outruns_its_load_pushes(payout, cable, load, told) -> None
     assert found & {"pushed", "pushed-at-once"} == told
 
 
+#: A cable over a wheel that is carried across it, to a load.
+SWEPT = """\
+end = 1
+[[cable]]
+EA = 1e6
+rho = 0.1
+[[load]]
+at = [2, -5, 0]
+mass = 50
+[[route]]
+kind = "fixed"
+at = [0, 0.2, 0]
+[[route]]
+kind = "pulley"
+at = [1.8, 0, 0]
+radius = 0.2
+inertia = 1
+motion = ["0.1*TIME**2", "", ""]
+[[route]]
+kind = "hook"
+at = [2, -5, 0]
+"""
+LEANING = SWEPT.replace("motion = ", "leans = true # ")
+POINT = "inertia is missing: a load without it is a point, held at its mass centre, and "
+
+
+@pytest.mark.parametrize(
+    ("spec", "said"),
+    [
+        (SWEPT, "the wheel of station 2 moves across its cable: only form brute represents that;"
+                " form brute is written for one cable without [[load]]"),
+        (SWEPT + '[model]\nform = "brute"\n', "form = brute is given; form brute is written for"
+                                             " one cable without [[load]]"),
+        (LEANING, ""),
+        (reeving_mistakes.ROUND.replace("\ninertia = 5", ""), POINT + "station 2 is a wheel on it"),
+        (LEANING.replace("[2, -5, 0]", "[2, -6, 0]", 1), POINT + "station 3 is 1 m from there"),
+        (LEANING.replace("mass = 50", "mass = 50\npivot = { at = [2, -5, 0] }"),
+         POINT + "this one turns about a hinge"),
+        (ATWOOD.replace("rho = 0.01", "rho = 0.01\ndamping = 1.0"),
+         "damping has to be at least 0 and below 1, and is 1.0"),
+        (ATWOOD.replace("level = 1", "accuracy = 1"),
+         "accuracy has to be at least 0 and below 1, and is 1"),
+    ],
+)  # fmt: skip
+def test_a_message_gives_the_reason_that_holds(spec: str, said: str) -> None:
+    """A cable with a load and no form, a load without inertia, a share of exactly 1."""
+    assert [each.message for each in told(spec)] == [said] * bool(said)
+
+
 @pytest.mark.parametrize("value", ["1e-300", "1e51", "-1e60", "inf"])
 @pytest.mark.parametrize("key", ["EA = 1e7", "rho = 0.01", "mass = 3"])
 def test_numbers_no_product_of_which_is_a_number_are_refused(key: str, value: str) -> None:
