@@ -2,8 +2,9 @@
 
 import tomllib
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
+from math import pi
 from typing import Any, TypeGuard
 
 from adamslite.cables.description import surroundings_rules
@@ -174,7 +175,7 @@ def _spec(top: Toml, cable: Toml, model: Toml, route: list[Toml]) -> Spec:
     numbers: Toml = {k: 0 if v == "auto" else v for k, v in model.items() if k != "form"}
     return Spec(
         **top, cable=Cable(**{names.get(k, k): v for k, v in cable.items()}),
-        route=tuple(Station(**each) for each in route), form=model["form"], **numbers,
+        route=tuple(_station(each, cable["rho"]) for each in route), form=model["form"], **numbers,
     )  # fmt: skip
 
 
@@ -206,7 +207,7 @@ def _stations(faults: Faults, route: object) -> list[Toml]:
     for i, each in enumerate(route):
         kind = each.get("kind")
         rules = STATIONS.get(kind) if isinstance(kind, str) else None
-        if rules and each.get("held") is True:  # it does not turn
+        if rules and (each.get("held") is True or kind == "winch" and _is_driven(each)):
             rules = rules | {"inertia": ("number", "not-positive", 0.0)}
         if rules and kind == "fixed":
             rules = rules | surroundings_rules.FIXED
@@ -214,6 +215,22 @@ def _stations(faults: Faults, route: object) -> list[Toml]:
         known = each if rules else {k: v for k, v in each.items() if k in PLACE}
         found.append(_table(faults, known, rules or PLACE, ("route", i)))
     return found
+
+
+def _is_driven(winch: Toml) -> bool:
+    """Whether a law alone turns a winch on a bearing that forces do not move: no tension depends
+    on its inertia."""
+    law = "payout" in winch or "speed" in winch and "motor" not in winch
+    return law and not winch.keys() & {"mass", "mount", "load"}
+
+
+def _station(each: Toml, density: float) -> Station:
+    """A station; a winch without inertia, which only a law turns, has that of half a turn of
+    cable: a part without mass has no explicit equations of motion."""
+    found = Station(**each)
+    if found.inertia or found.kind != "winch":
+        return found
+    return replace(found, inertia=pi * density * found.radius**3)
 
 
 def _table(
