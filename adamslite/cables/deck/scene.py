@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from adamslite.cables.deck.deck_writer import Modelled, write
 from adamslite.cables.deck.form_rules import (
     check_chain,
+    check_collisions,
     check_form,
     check_shape,
     tell_overstretched,
@@ -196,6 +197,7 @@ def _modelled(of: Setting, faults: Faults, why: Reasons | None = None) -> Modell
     check_form(spec, pieces, model, faults)
     check_chain(spec, pieces, faults)
     check_shape(spec, pieces, model, faults)
+    check_collisions(spec, pieces, moves, faults)
     _check(spec, pieces, moves, model, faults)
     return Modelled(spec, pieces, moves, model)
 

@@ -278,6 +278,9 @@ MESSAGES: dict[str, Message] = SURROUNDINGS | {
         "another level, form or number of elements, or an earlier end",
         severity=WARNING,
     ),
+    "runs-into-wheel": Message(
+        "{what}", "end before that, or start the weight further from the wheel", severity=WARNING
+    ),
     "pretension": Message(
         "{pretension:.4g} N of pretension where {hung:.4g} N hang: the cable starts out of balance,"
         " and the weight bounces",

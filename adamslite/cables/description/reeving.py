@@ -14,7 +14,7 @@ from adamslite.cables.vectors import add
 
 MOST_STATIONS = 20000
 # Keys of a table that are no fields of a station.
-ORDER_KEYS = ("name", "count", "pitch", "stagger")
+ORDER_KEYS = ("count", "pitch", "stagger")
 
 
 def along_several(
@@ -91,7 +91,7 @@ def _named(faults: Faults, tables: list[Toml], fall: object, path: Path) -> list
 def _copies(faults: Faults, table: Toml, i: int) -> list[Toml]:
     """The stations of one table."""
     own = {key: value for key, value in table.items() if key not in ORDER_KEYS}
-    count, pitch, stagger = (table.get(key) for key in ORDER_KEYS[1:])
+    count, pitch, stagger = (table.get(key) for key in ORDER_KEYS)
     if not (isinstance(count, int) and isinstance(own.get("at"), tuple)) or count == 1:
         return [own]
     if count > MOST_STATIONS:

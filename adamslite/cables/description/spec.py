@@ -2,7 +2,7 @@
 
 import tomllib
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
 from math import pi
 from typing import Any, TypeGuard
@@ -173,9 +173,13 @@ def _stop(faults: Faults, readable: bool) -> None:
 def _spec(top: Toml, cable: Toml, model: Toml, route: list[Toml]) -> Spec:
     names = {"EA": "stiffness", "rho": "density", "breaking_load": "breaking"}
     numbers: Toml = {k: 0 if v == "auto" else v for k, v in model.items() if k != "form"}
+    for each in route:
+        if each["kind"] == "winch" and not each["inertia"]:
+            # Half a turn of cable: nothing depends on it, but a part needs mass.
+            each["inertia"] = pi * cable["rho"] * each["radius"] ** 3
     return Spec(
         **top, cable=Cable(**{names.get(k, k): v for k, v in cable.items()}),
-        route=tuple(_station(each, cable["rho"]) for each in route), form=model["form"], **numbers,
+        route=tuple(Station(**each) for each in route), form=model["form"], **numbers,
     )  # fmt: skip
 
 
@@ -218,19 +222,9 @@ def _stations(faults: Faults, route: object) -> list[Toml]:
 
 
 def _is_driven(winch: Toml) -> bool:
-    """Whether a law alone turns a winch on a bearing that forces do not move: no tension depends
-    on its inertia."""
+    """Whether no tension depends on its inertia: a law turns it, and no force moves its axle."""
     law = "payout" in winch or "speed" in winch and "motor" not in winch
     return law and not winch.keys() & {"mass", "mount", "load"}
-
-
-def _station(each: Toml, density: float) -> Station:
-    """A station; a winch without inertia, which only a law turns, has that of half a turn of
-    cable: a part without mass has no explicit equations of motion."""
-    found = Station(**each)
-    if found.inertia or found.kind != "winch":
-        return found
-    return replace(found, inertia=pi * density * found.radius**3)
 
 
 def _table(
