@@ -103,7 +103,8 @@ def test_stations_follow_the_fall_and_not_the_file() -> None:
     turned = f'fall = "drum load"\n{head}' + "".join(
         f"[[route]]\n{table}" for table in reversed(named)
     )
-    assert below(deck(turned + model)[0]) == below(deck(RIGID)[0])
+    straight = "[[route]]\n".join((head, *named)) + model
+    assert below(deck(turned + model)[0]) == below(deck(straight)[0])
 
 
 TACKLE = """\

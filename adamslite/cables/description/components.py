@@ -28,6 +28,7 @@ class Cable:
     length: float = 0.0
     bending: float = 0.0
     bending_damping: float = 0.0
+    name: str = ""
 
     @property
     def speed(self) -> float:
