@@ -211,7 +211,10 @@ def _stations(faults: Faults, route: object) -> list[Toml]:
     for i, each in enumerate(route):
         kind = each.get("kind")
         rules = STATIONS.get(kind) if isinstance(kind, str) else None
-        if rules and (each.get("held") is True or kind == "winch" and _is_driven(each)):
+        # No tension depends on the inertia of a winch that a law turns and no force moves.
+        driven = kind == "winch" and ("payout" in each or "speed" in each and "motor" not in each)
+        driven = driven and not each.keys() & {"mass", "mount", "load"}
+        if rules and (driven or each.get("held") is True):
             rules = rules | {"inertia": ("number", "not-positive", 0.0)}
         if rules and kind == "fixed":
             rules = rules | surroundings_rules.FIXED
@@ -219,12 +222,6 @@ def _stations(faults: Faults, route: object) -> list[Toml]:
         known = each if rules else {k: v for k, v in each.items() if k in PLACE}
         found.append(_table(faults, known, rules or PLACE, ("route", i)))
     return found
-
-
-def _is_driven(winch: Toml) -> bool:
-    """Whether no tension depends on its inertia: a law turns it, and no force moves its axle."""
-    law = "payout" in winch or "speed" in winch and "motor" not in winch
-    return law and not winch.keys() & {"mass", "mount", "load"}
 
 
 def _table(
