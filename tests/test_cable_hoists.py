@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from descriptions import ATWOOD
 
 import adamslite
 from adamslite.cables.deck.scene import deck
@@ -155,3 +156,34 @@ def test_statics_of_a_rope_that_may_part(stiffness: str) -> None:
     assert results.outcome is adamslite.Outcome.DONE, results.message
     carried = results["SFORCE/1001.f"][-1] + results["SFORCE/2001.f"][-1]
     assert -carried == pytest.approx(G * (500 + 0.002 * 11), abs=0.05)
+
+
+def test_names_of_a_description_reach_the_deck() -> None:
+    """Of cables, of stations with a wheel or a weight, and of requests; without names no words."""
+    one = deck(ATWOOD.replace("level = 1", "level = 3").replace("rho", 'name = "wire"\nrho')
+               .replace("mass = 3", 'mass = 3\nname = "cage"')
+               .replace("[1.8, 0, 0]", '[1.8, 0, 0]\nname = "a,b;c"'))[0]  # fmt: skip
+    statements = one[one.index("\nPART/1, GROUND") :]
+    assert one.splitlines()[1].startswith("! Cable wire. Level 3")
+    assert "\n! The pulley of station 3 (a_b_c), R = 0.2 m.\n" in statements
+    assert "\n! The mass of station 4 (cage).\nPOINT_MASS/40" in statements
+    requests = adamslite.read(one).of("REQUEST")
+    assert [each.comment for each in requests] == [
+        "span 1: tension at its root and tip",
+        "span 2 (pulley to a_b_c): tension at its root and tip",
+        "span 3 (a_b_c to cage): tension at its root and tip",
+        None,
+        "a_b_c: travel of the cable",
+    ]
+    bare = deck(ATWOOD.replace("level = 1", "level = 3"))[0]
+    assert "(" not in "".join(re.findall("! The .*", bare)) and "travel of the cable" not in bare
+
+
+def test_copies_of_a_station_have_names_with_numbers() -> None:
+    spec = ATWOOD.replace(
+        "radius = 0.2", 'radius = 0.2\nname = "s"\ncount = 2\npitch = [0.5, 0, 0]', 1
+    )
+    found = re.findall(
+        r"! The pulley of (.*), R", deck(spec.replace("0.2, 0, 0]", "0.2, 0.1, 0]"))[0]
+    )
+    assert found[:2] == ["station 2 (s.1)", "station 3 (s.2)"]

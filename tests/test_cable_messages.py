@@ -48,6 +48,8 @@ HANGS = (
     hung(end=0.1, cable="EA = 1e7\nrho = 0.1", at=(0, -20), mass=200)
     + "velocity = [0, 0, 0]\n[model]\nlevel = 2\n"
 )
+#: Its lighter weight goes up by its 5 m in 2.26 s.
+RUNS_IN = ATWOOD.replace("end = 0.5", "end = 2.5\nsteps = 20")
 LAST = ATWOOD.index("[[route]]", ATWOOD.index("1.8"))
 # Code: (description, what is replaced, by what, the line and column of the caret).
 WRONG = reeving_mistakes.MISTAKES | water_mistakes.MISTAKES | {
@@ -118,8 +120,9 @@ WRONG = reeving_mistakes.MISTAKES | water_mistakes.MISTAKES | {
     "slackens": (HANGS, "velocity = [0, 0, 0]", "velocity = [0, 2, 0]", (2, 1)),
     "goes-slack": (HANGS, "velocity = [0, 0, 0]", "velocity = [0, 2, 0]", (2, 1)),
     "unsettled": (LOWERS, "level = 3", "level = 3\naccuracy = 0.01\ntrial = 1e-3", (18, 1)),
-    "does-not-end": (ATWOOD.replace("end = 0.5", "end = 2.5\nsteps = 20"), "level = 1",
-                     "level = 3\nelements = 1", (24, 1)),
+    "does-not-end": (RUNS_IN.replace("inertia = 0.04", "inertia = 0.04\nfriction = 1e-3", 1),
+                     "level = 1", "level = 3\nelements = 1", (25, 1)),
+    "runs-into-wheel": (RUNS_IN, "", "", (22, 1)),
     "pretension": (HANGS, "rho = 0.1", "rho = 0.1\npretension = 2500", (5, 1)),
     "pushed": (LOWERS, "0.5*TIME**2", "6*TIME**2", (11, 1)),
     "pushed-at-once": (LOWERS, "0.5*TIME**2", "2*TIME", (11, 1)),
@@ -237,6 +240,55 @@ def test_a_winch_that_outruns_its_load_pushes(payout, cable, load, told) -> None
     text = text.replace("rho = 4\n", "rho = 4\n" + cable) + load + "[model]\nlevel = 3\n"
     found = {each.code for each in deck(text)[1]}
     assert found & {"pushed", "pushed-at-once"} == told
+
+
+#: A cable over a wheel that is carried across it, to a load.
+SWEPT = """\
+end = 1
+[[cable]]
+EA = 1e6
+rho = 0.1
+[[load]]
+at = [2, -5, 0]
+mass = 50
+[[route]]
+kind = "fixed"
+at = [0, 0.2, 0]
+[[route]]
+kind = "pulley"
+at = [1.8, 0, 0]
+radius = 0.2
+inertia = 1
+motion = ["0.1*TIME**2", "", ""]
+[[route]]
+kind = "hook"
+at = [2, -5, 0]
+"""
+LEANING = SWEPT.replace("motion = ", "leans = true # ")
+POINT = "inertia is missing: a load without it is a point, held at its mass centre, and "
+
+
+@pytest.mark.parametrize(
+    ("spec", "said"),
+    [
+        (SWEPT, "the wheel of station 2 moves across its cable: only form brute represents that;"
+                " form brute is written for one cable without [[load]]"),
+        (SWEPT + '[model]\nform = "brute"\n', "form = brute is given; form brute is written for"
+                                             " one cable without [[load]]"),
+        (LEANING, ""),
+        (reeving_mistakes.ROUND.replace("\ninertia = 5", ""), POINT + "station 2 is a wheel on it"),
+        (LEANING.replace("[2, -5, 0]", "[2, -6, 0]", 1), POINT + "station 3 is 1 m from there"),
+        (LEANING.replace("mass = 50", "mass = 50\npivot = { at = [2, -5, 0] }"),
+         POINT + "this one turns about a hinge"),
+        (ATWOOD.replace("rho = 0.01", "rho = 0.01\ndamping = 1.0"),
+         "damping has to be at least 0 and below 1, and is 1.0"),
+        (ATWOOD.replace("level = 1", "accuracy = 1"),
+         "accuracy has to be at least 0 and below 1, and is 1"),
+    ],
+)  # fmt: skip
+def test_a_message_gives_the_reason_that_holds(spec: str, said: str) -> None:
+    """A cable with a load and no form, a load without inertia, a share of exactly 1."""
+    assert [each.message for each in told(spec)] == [said] * bool(said)
 
 
 @pytest.mark.parametrize("value", ["1e-300", "1e51", "-1e60", "inf"])

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from descriptions import hoist, hung
+from descriptions import ATWOOD, hoist, hung
 
 import adamslite as al
 from adamslite.api.trials import described, solver
@@ -305,3 +305,37 @@ def test_a_model_whose_run_does_not_end_is_told() -> None:
     found = tried(setting(HUNG + "[model]\nelements = 3\n"), fails, 10.0)
     assert codes(found) == ["does-not-end"]
     assert not codes(tried(setting(HUNG + "[model]\nelements = 3\n"), fails, 0.0))
+
+
+@pytest.mark.parametrize("model", ["", "[model]\nelements = 1\n"])
+@pytest.mark.parametrize("friction", ["", "friction = 1.0\n"])
+def test_a_weight_that_runs_into_its_wheel_is_named(model: str, friction: str) -> None:
+    """5 kg and 3 kg go (2 g - M/R)/m t^2/2 = 5 m, m = 10.1 kg with the wheels and 11.6 m of cable:
+    2.27 s without friction M of one wheel, known before the run, and more with it, by trial."""
+    named = ATWOOD[: ATWOOD.index("[model]")].replace("end = 0.5", "end = 3")
+    named = named.replace("mass = 3", 'mass = 3\nname = "cage"')
+    spec = named.replace("inertia = 0.04\n", f"inertia = 0.04\n{friction}", 1) + model
+    found = described(spec, "<text>", 10.0, Progress()).deck.messages
+    assert [each.code for each in found] == ["does-not-end" if friction else "runs-into-wheel"]
+    what = "weight of station 4 (cage) runs into the wheel of station 3 at TIME = "
+    _, said, rest = found[0].message.partition(what)
+    wanted = (10 * 10.116 / (2 * 9.81 - bool(friction) / 0.2)) ** 0.5
+    assert said and float(rest.split(":")[0]) == pytest.approx(wanted, rel=1e-2)
+    early = described(spec.replace("end = 3", "end = 2"), "<text>", 10.0, Progress())
+    assert not any("runs into" in each.message for each in early.deck.messages)
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+def test_a_winch_between_two_weights_pulls_one_into_it(sense: int) -> None:
+    """5 m of payout along the route, or against it, from weights 4 m and 6 m below."""
+    spec = ATWOOD.replace("end = 0.5", "end = 1").replace("[2, -5, 0]", "[0.4, -4, 0]")
+    first = spec.index("[[route]]", spec.index("radius"))
+    spec = spec[:first] + spec[spec.index("[[route]]", first + 1) :]
+    spec = spec.replace("[0, -5, 0]", "[0, -6, 0]").replace(
+        'kind = "pulley"', f'kind = "winch"\npayout = "{-5 * sense}*TIME"'
+    )
+    found = [each.message for each in deck(spec)[1] if each.code == "runs-into-wheel"]
+    assert [each.split(":")[0] for each in found] == (
+        ["the weight of station 3 runs into the wheel of station 2 at TIME = 0.8"]
+        if sense > 0 else []
+    )  # fmt: skip

@@ -103,7 +103,8 @@ def test_stations_follow_the_fall_and_not_the_file() -> None:
     turned = f'fall = "drum load"\n{head}' + "".join(
         f"[[route]]\n{table}" for table in reversed(named)
     )
-    assert below(deck(turned + model)[0]) == below(deck(RIGID)[0])
+    straight = "[[route]]\n".join((head, *named)) + model
+    assert below(deck(turned + model)[0]) == below(deck(straight)[0])
 
 
 TACKLE = """\
@@ -191,3 +192,30 @@ def test_a_block_hangs_between_two_drums(pulls: tuple[float, float]) -> None:
     assert found["REQUEST/10.F2"][-1] == pytest.approx(rates[0] / 2, rel=1e-4)
     # The route goes to the second drum: what it pays out runs against it.
     assert -found["REQUEST/30.F2"][-1] == pytest.approx(rates[1] / 2, rel=1e-4)
+
+
+@pytest.mark.parametrize("drive", ['payout = "0.5*TIME**2"', 'speed = "TIME"'])
+def test_a_winch_that_a_law_turns_needs_no_inertia(drive: str) -> None:
+    """Its tensions are those with any inertia, to the accuracy of the runs."""
+    spec = "error = 1e-9\n" + HOIST.replace(PAYOUT, drive) + "[model]\nlevel = 3\nelements = 2\n"
+    bare = adamslite.simulate(adamslite.read(deck(spec.replace("inertia = 25\n", ""))[0]))
+    full = adamslite.simulate(adamslite.read(deck(spec)[0]))
+    for name in ("REQUEST/1.F2", "REQUEST/1.F3"):
+        assert bare[name] == pytest.approx(full[name], rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("drive", "more"),
+    [
+        ('force = "9810"', ""),
+        ('speed = "TIME"', "motor = { curve = [[0, 1e4], [9, 0]], gain = 1e4 }"),
+        (PAYOUT, "mount = { foot = [0, 1, 0], mass = 50, stiffness = 1e6 }"),
+        (PAYOUT, "mass = 30"),
+        (PAYOUT, 'load = "box"'),
+    ],
+)
+def test_a_winch_whose_inertia_counts_needs_it(drive: str, more: str) -> None:
+    """Forces turn it, or move its bearing with the mass that goes with the inertia."""
+    spec = HOIST.replace(PAYOUT, f"{drive}\n{more}").replace("inertia = 25\n", "")
+    with pytest.raises(adamslite.DeckError, match="station 1 needs inertia"):
+        deck(spec)

@@ -71,10 +71,11 @@ def solver(shown: Progress) -> Solver:
             return _ended(TOO_LONG, most)
         if run.outcome is Outcome.INTERRUPTED:
             raise KeyboardInterrupt
-        if run.outcome is not Outcome.DONE:
-            return _ended(run.outcome.sentence.partition(". ")[0], steps)
         names = set(run.names)
         found = {name: np.asarray(run[name]) for name in columns if name in names}
+        if run.outcome is not Outcome.DONE:
+            why = run.outcome.sentence.partition(". ")[0]
+            return Solution(Series(np.asarray(run.time), found), steps, inf, why)
         if not all(np.isfinite(each).all() for each in found.values()):
             return _ended("a tension or a place has no value", steps)
         cpu = float(run.summary["solve_cpu_s"])

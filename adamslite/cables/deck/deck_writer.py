@@ -80,7 +80,7 @@ def _without_idle(text: str) -> str:
 
 def _notes(each: Modelled) -> str:
     """The model, and why."""
-    model, name = each.model, each.spec.numbers.name
+    model, name = each.model, f"{each.spec.numbers.name} {each.spec.cable.name}".strip()
     kind = BRUTE if model.form == "brute" else NOTES[model.level]
     reasons, figures = "; ".join(model.reasons.sentences), "; ".join(model.figures)
     notes = f"{kind} Chosen: {reasons}. Figures: {figures}."
@@ -106,7 +106,8 @@ def _cable(each: Modelled) -> str:
     # What every cable has a value of gets its number.
     names = "|".join(re.findall(r"^VARIABLE/(\w+)", own, re.MULTILINE)) or "EA"
     text = re.sub(rf"\b({names})\b", rf"\1_{spec.numbers.name}", own + text)
-    return f"\n! ==== cable {spec.numbers.name} ====\n{text}"
+    name = f"{spec.numbers.name} {spec.cable.name}".strip()
+    return f"\n! ==== cable {name} ====\n{text}"
 
 
 def _places(cables: list[Modelled]) -> dict[int, list[tuple[int, Vector]]]:

@@ -4,6 +4,7 @@ from adamslite.cables.description.messages import Faults
 from adamslite.cables.description.vocabulary import Spec
 from adamslite.cables.layout.brute_force_layout import length, way
 from adamslite.cables.layout.geometry import FreeSpan, reaches
+from adamslite.cables.model.estimate import Moves
 from adamslite.cables.model.model_choice import CableModel, needs_brute
 from adamslite.cables.statements.sliders import is_straight, is_wire
 from adamslite.cables.vectors import add, cross, dot
@@ -132,6 +133,26 @@ def check_shape(spec: Spec, pieces: list[FreeSpan], model: CableModel, faults: F
             faults.add("bend-too-tight", ("route", i, "radius"), section=section, radius=radius)
     if spec.speed and not spec.closed:
         faults.add("speed-on-a-route", ("speed",))
+
+
+def runs_in(spec: Spec, weight: int, wheel: int, time: float) -> str:
+    """Names a weight that runs into a wheel, and when."""
+    names = f"the weight of {spec.label(weight)} runs into the wheel of {spec.label(wheel)}"
+    return f"{names} at TIME = {time:.4g}: the span between them has no length left"
+
+
+def check_collisions(spec: Spec, pieces: list[FreeSpan], moves: Moves, faults: Faults) -> None:
+    """Whether no weight at an end runs into a wheel, where it is known how the cable moves."""
+    inside, n = spec.route[1:-1], len(spec.route)
+    unknown = not moves.known or any(map(spec.is_end, spec.winches)) or len(moves.ways) != 1
+    if unknown or any(x.gives_way or x.friction and not moves.paid for x in inside):
+        return
+    ways = moves.ways[0].ways
+    for i, j, span, sense in (0, 1, pieces[0], 1), (n - 1, n - 2, pieces[-1], -1):
+        k = next((k for k, way in enumerate(ways) if sense * way >= span.length), 0)
+        if k and spec.route[i].kind in ("mass", "body"):
+            what = runs_in(spec, i, j, spec.end * k / (len(ways) - 1))
+            faults.add("runs-into-wheel", ("route", i, "at"), what=what)
 
 
 def tell_overstretched(spec: Spec, section: float = 0.0, *, faults: Faults) -> None:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from adamslite.cables.deck.deck_writer import Modelled, write
 from adamslite.cables.deck.form_rules import (
     check_chain,
+    check_collisions,
     check_form,
     check_shape,
     tell_overstretched,
@@ -198,6 +199,7 @@ def _modelled(of: Setting, faults: Faults, why: Reasons | None = None) -> Modell
     check_form(spec, pieces, model, faults)
     check_chain(spec, pieces, faults)
     check_shape(spec, pieces, model, faults)
+    check_collisions(spec, pieces, moves, faults)
     _check(spec, pieces, moves, model, faults)
     return Modelled(spec, pieces, moves, model)
 
@@ -268,15 +270,17 @@ def _sharing(rope: Rope, ready: Drawn, ropes: list[Rope], loads: tuple[Load, ...
 
 
 def _check_forms(ropes: list[Rope]) -> None:
-    """Whether no cable of several needs sections that run over rims."""
+    """Whether no cable of several, or with loads, needs sections that run over rims."""
     if ropes[0].spec.form == "brute":
-        ropes[0].faults.add("several-brute", ("model", "form"), why="as asked")
+        ropes[0].faults.add("several-brute", ("model", "form"), why="form = brute is given",
+                            hint="leave form out")  # fmt: skip
         return
     for rope in ropes:
         why = needs_brute(rope.spec, rope.spans)
         why += ["nothing holds its bends"] if rope.spec.bends and not why else []
         if why:
-            rope.faults.add("several-brute", ("cable",), why="; ".join(why))
+            needs = "; ".join(why) + ": only form brute represents that"
+            rope.faults.add("several-brute", ("cable",), why=needs)
 
 
 def _check_shares(found: list[Modelled], ropes: list[Rope], loads: tuple[Load, ...]) -> None:

@@ -30,6 +30,7 @@ class Cable:
     bending: float = 0.0
     bending_damping: float = 0.0
     damping_time: float = 0.0
+    name: str = ""
 
     @property
     def speed(self) -> float:

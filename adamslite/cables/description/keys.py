@@ -38,6 +38,7 @@ TOP: Rules = {
     "fall": ("text", "", ""),
 }
 CABLE: Rules = {
+    "name": ("word", "", ""),
     "EA": ("number", "not-positive", None),
     "rho": ("number", "not-positive", None),
     "pretension": ("number", "negative", 0.0),
@@ -172,6 +173,6 @@ LOAD: Rules = {
     "velocity": ("vector", "", ZERO),
     "pivot": (PIVOT, "", None),
 }
-# Of one of several cables: its name, and the names of the stations it goes to.
-OF_SEVERAL: Rules = {"name": ("word", "", ""), "fall": ("text", "", None)}
+# Of one of several cables: the names of the stations it goes to.
+OF_SEVERAL: Rules = {"fall": ("text", "", None)}
 TABLES = ("cable", "model", "route", "load")

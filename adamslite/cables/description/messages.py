@@ -16,7 +16,7 @@ MESSAGES: dict[str, Message] = SURROUNDINGS | {
     "wrong-value": Message("{word} takes {expected}", "it is {text}"),
     "not-positive": Message("{word} has to be positive and is {text}", "SI units: N, kg/m, m, s"),
     "not-a-share": Message(
-        "{word} has to lie between 0 and 1 and is {text}", "0.2 is twenty per cent"
+        "{word} has to be at least 0 and below 1, and is {text}", "0.2 is twenty per cent"
     ),
     "negative": Message("{word} cannot be negative and is {text}", "0, or leave it out"),
     "short-route": Message("a route has two ends and {count} stations", "add [[route]] tables"),
@@ -38,7 +38,7 @@ MESSAGES: dict[str, Message] = SURROUNDINGS | {
         "with several cables each has a fall of its own", "fall = ... in every [[cable]]"
     ),
     "several-brute": Message(
-        "several cables are not written in form brute: {why}",
+        "{why}; form brute is written for one cable without [[load]]",
         "no bends, no teeth, leans = true at wheels that move across their cable",
     ),
     "no-such-load": Message("there is no load of the name {word}", "the loads are {known}"),
@@ -47,7 +47,7 @@ MESSAGES: dict[str, Message] = SURROUNDINGS | {
     "same-load": Message("load {i} has the name {name} too", "a name for each load"),
     "no-hook": Message("no cable and no hinge holds this load", 'kind = "hook" in [[route]]'),
     "load-point": Message(
-        "{label} is not at the mass centre of its load, which is a point without inertia",
+        "inertia is missing: a load without it is a point, held at its mass centre, and {why}",
         "inertia = ... in [[load]], in kg m^2",
     ),
     "load-alone": Message(
@@ -277,6 +277,9 @@ MESSAGES: dict[str, Message] = SURROUNDINGS | {
         "the run of this model does not come to its end: {why}",
         "another level, form or number of elements, or an earlier end",
         severity=WARNING,
+    ),
+    "runs-into-wheel": Message(
+        "{what}", "end before that, or start the weight further from the wheel", severity=WARNING
     ),
     "pretension": Message(
         "{pretension:.4g} N of pretension where {hung:.4g} N hang: the cable starts out of balance,"

@@ -5,6 +5,7 @@ count, pitch, stagger   station k of `count` lies at `at` + k `pitch`, every sec
 fall = "d1 s1 anchor"   the names of the stations in the order in which the cable passes them
 """
 
+import re
 from collections import Counter
 
 from adamslite.cables.description.messages import Faults, quoted
@@ -14,7 +15,7 @@ from adamslite.cables.vectors import add
 
 MOST_STATIONS = 20000
 # Keys of a table that are no fields of a station.
-ORDER_KEYS = ("name", "count", "pitch", "stagger")
+ORDER_KEYS = ("count", "pitch", "stagger")
 
 
 def along_several(
@@ -91,7 +92,9 @@ def _named(faults: Faults, tables: list[Toml], fall: object, path: Path) -> list
 def _copies(faults: Faults, table: Toml, i: int) -> list[Toml]:
     """The stations of one table."""
     own = {key: value for key, value in table.items() if key not in ORDER_KEYS}
-    count, pitch, stagger = (table.get(key) for key in ORDER_KEYS[1:])
+    # In the deck it stands in values of statements.
+    own["name"] = re.sub(r"[^\w.+-]", "_", own.get("name") or "")
+    count, pitch, stagger = (table.get(key) for key in ORDER_KEYS)
     if not (isinstance(count, int) and isinstance(own.get("at"), tuple)) or count == 1:
         return [own]
     if count > MOST_STATIONS:
@@ -101,10 +104,11 @@ def _copies(faults: Faults, table: Toml, i: int) -> list[Toml]:
         faults.add("no-pitch", ("route", i, "count"), count=count)
         return [own]
     places = [add(own["at"], pitch, k) for k in range(count)]
+    named = [own | {"name": own["name"] and f"{own['name']}.{k + 1}"} for k in range(count)]
     if not isinstance(stagger, tuple) or not any(stagger):
-        return [own | {"at": place} for place in places]
+        return [each | {"at": place} for each, place in zip(named, places, strict=True)]
     turns = own.get("turn", 0), -own.get("turn", 0)
     return [
-        own | {"at": add(place, stagger, k % 2), "turn": turns[k % 2]}
+        named[k] | {"at": add(place, stagger, k % 2), "turn": turns[k % 2]}
         for k, place in enumerate(places)
     ]

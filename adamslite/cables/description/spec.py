@@ -4,6 +4,7 @@ import tomllib
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
+from math import pi
 from typing import Any, TypeGuard
 
 from adamslite.cables.description import surroundings_rules
@@ -172,6 +173,10 @@ def _stop(faults: Faults, readable: bool) -> None:
 def _spec(top: Toml, cable: Toml, model: Toml, route: list[Toml]) -> Spec:
     names = {"EA": "stiffness", "rho": "density", "breaking_load": "breaking"}
     numbers: Toml = {k: 0 if v == "auto" else v for k, v in model.items() if k != "form"}
+    for each in route:
+        if each["kind"] == "winch" and not each["inertia"]:
+            # Half a turn of cable: nothing depends on it, but a part needs mass.
+            each["inertia"] = pi * cable["rho"] * each["radius"] ** 3
     return Spec(
         **top, cable=Cable(**{names.get(k, k): v for k, v in cable.items()}),
         route=tuple(Station(**each) for each in route), form=model["form"], **numbers,
@@ -206,7 +211,10 @@ def _stations(faults: Faults, route: object) -> list[Toml]:
     for i, each in enumerate(route):
         kind = each.get("kind")
         rules = STATIONS.get(kind) if isinstance(kind, str) else None
-        if rules and each.get("held") is True:  # it does not turn
+        # No tension depends on the inertia of a winch that a law turns and no force moves.
+        driven = kind == "winch" and ("payout" in each or "speed" in each and "motor" not in each)
+        driven = driven and not each.keys() & {"mass", "mount", "load"}
+        if rules and (driven or each.get("held") is True):
             rules = rules | {"inertia": ("number", "not-positive", 0.0)}
         if rules and kind == "fixed":
             rules = rules | surroundings_rules.FIXED

@@ -71,6 +71,7 @@ class Station:
     load: str = ""
     on: int = 0
     origin: Vector = ZERO
+    name: str = ""
 
     @property
     def has_states(self) -> bool:
@@ -208,6 +209,11 @@ class Spec:
     def station(self, i: int) -> int:
         """Number of station i in the deck."""
         return i + 1 + self.numbers.stations
+
+    def label(self, i: int) -> str:
+        """Station i as messages and comments call it."""
+        name = self.route[i].name
+        return f"station {self.station(i)}" + f" ({name})" * bool(name)
 
     def marker(self, i: int) -> int:
         """Marker of station i."""

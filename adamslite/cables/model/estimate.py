@@ -41,7 +41,7 @@ class Travel:
 
     `start` and `jump` are the speeds it starts with, and those that are there at once, `gain` the
     greatest acceleration forwards [m/s^2], at `gain_at` [s]; `known` is false where it depends on
-    what only the run knows.
+    what only the run knows. `ways` are those at the ends of equal steps, first 0.
     """
 
     least: float = 0.0
@@ -55,6 +55,7 @@ class Travel:
     start: float = 0.0
     gain: float = 0.0
     gain_at: float = 0.0
+    ways: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -287,5 +288,5 @@ def from_ways(ways: list[float], h: float, across: float = 0.0) -> Travel:
     jump = abs(start) if abs(start) > SUDDEN * fastest else 0.0
     return Travel(
         least, max(ways), ways.index(least) * h, fastest, max(map(abs, changes)), jump, across,
-        start=start, gain=gain, gain_at=(first + 1) * h,
+        start=start, gain=gain, gain_at=(first + 1) * h, ways=tuple(ways),
     )  # fmt: skip

@@ -79,7 +79,7 @@ def _check_loads(
                 "no-such-load", ("load", k, "pivot"), word=each.pivot.on, known=_known(names)
             )
         if not each.turns:
-            faults.add("load-point", ("load", k, "pivot"), label="a hinge")
+            faults.add("load-point", ("load", k, "pivot"), why="this one turns about a hinge")
 
 
 def _known(names: list[str]) -> str:
@@ -103,7 +103,8 @@ def _on(each: Station, i: int, loads: tuple[Load, ...], faults: Faults) -> Stati
     load = loads[names.index(each.load) if each.load else 0]
     away = norm(add(each.at, load.at, -1))
     if not load.turns and (each.is_wheel or away > ROUND_OFF * (1 + norm(load.at))):
-        faults.add("load-point", (*path, "at"), label=label)
+        what = "is a wheel on it" if each.is_wheel else f"is {away:.4g} m from there"
+        faults.add("load-point", (*path, "at"), why=f"{label} {what}")
     for word in ("mass", "slide", "pull", "motion", "mount", "block"):
         value = getattr(each, word)
         if each.is_wheel and (any(value) if isinstance(value, tuple) else value):

@@ -8,6 +8,11 @@ from adamslite.cables.vectors import add, norm, unit
 
 def end(spec: Spec, i: int, cable: float) -> str:
     """Station i, not a wheel, with the mass of `cable` at it."""
+    title = f"! The {spec.route[i].kind} of {spec.label(i)}.\n" * bool(spec.route[i].name)
+    return title + _end(spec, i, cable)
+
+
+def _end(spec: Spec, i: int, cable: float) -> str:
     each, n = spec.route[i], spec.marker(i)
     if each.kind in ("mass", "free"):
         return point(n, each.mass + cable, each.at, each.velocity) + _floor(spec, i)

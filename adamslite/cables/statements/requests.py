@@ -59,16 +59,18 @@ def _tensions(spec: Spec, model: CableModel, piece: Piece) -> str:
             i, j = side.node(n), side.node(n - 1) if n > 1 else root_marker(spec, piece)
             pull = spring(spec, piece, i, j, free)
             parts.append(f"F3={pull}{hanging_half(spec, piece.tip, f'{free}/2', (i, j))}")
+    ends = " to ".join(x.name or x.kind for x in (root, tip))
+    title = f"span {p}" + f" ({ends})" * bool(root.name or tip.name)
     words = "tension at its root and tip" if len(parts) > 1 else "tension"
     return (
         f"REQUEST/{piece.label}, " + "\\\n, ".join(parts)
-        + f'\\, COMMENT=span {p}: {words}, CUNITS="","N"' + ',"N"' * (len(parts) > 1) + "\n"
+        + f'\\, COMMENT={title}: {words}, CUNITS="","N"' + ',"N"' * (len(parts) > 1) + "\n"
     )  # fmt: skip
 
 
 def _over(spec: Spec, spans: list[FreeSpan], model: CableModel, found: list[Piece], i: int) -> str:
     each, n = spec.route[i], spec.marker(i)
-    title = f"cable over station {spec.station(i)}"
+    title = f"cable over {spec.label(i)}"
     parts = [f"F2={travel(i, spec)}", f"F3={travel(i, spec, 1)}"]
     if each.leans:
         parts.append(f"F4=JOINT({n},0,1,0)")
@@ -88,6 +90,8 @@ def _over(spec: Spec, spans: list[FreeSpan], model: CableModel, found: list[Piec
         parts.append(f"F8=({t2})/MAX({t1},{number(SLACK * spec.cable.stiffness)})")
         title += ", ratio of its tensions"
     text = "\\ ".join(parts)
+    if each.name:
+        text += f"\\, COMMENT={each.name}: travel of the cable"
     if len(parts) > 3:
         return f"! {title[0].upper()}{title[1:]}.\nREQUEST/{n}, {text}\n"
     return f"REQUEST/{n}, {text}  ! {title}\n"
@@ -131,9 +135,7 @@ def support_request(spec: Spec, model: CableModel, found: list[Piece], i: int) -
             for x, load in _load(spec, model, found[p], i).items():
                 loads[x] += load
     names = {x: f"load{x}_{n}" for x in AXES}
-    text = (
-        f"! Load of the cable on station {spec.station(i)}: along x, y and z, and its magnitude.\n"
-    )
+    text = f"! Load of the cable on {spec.label(i)}: along x, y and z, and its magnitude.\n"
     for x, load in loads.items():
         text += f"VARIABLE/{names[x]}, FUNCTION={load}\n"
     squares = "+".join(f"{name}**2" for name in names.values())

@@ -83,7 +83,7 @@ def wheel(spec: Spec, i: int, speed: float = 0.0) -> str:
     """A wheel whose rim starts with `speed` along the route [m/s]."""
     each, n = spec.route[i], spec.marker(i)
     own = "" if _is_upright(each) else f", ZP={triple(each.axis)}"
-    text = f"\n! The {each.kind} of station {spec.station(i)}, R = {number(each.radius)} m.\n"
+    text = f"\n! The {each.kind} of {spec.label(i)}, R = {number(each.radius)} m.\n"
     if is_rim(i, spec):
         return text + _on_bearing(each, n, n)
     if each.is_mobile and not each.on:
@@ -170,9 +170,7 @@ def mount_request(spec: Spec, i: int) -> str:
         return ""
     named = {2: "FX", 3: "FY", 4: "FZ", 6: "TX", 7: "TY", 8: "TZ"}
     parts = [f"F{k}={name}({n + 3},{n + 5})" for k, name in named.items()]
-    comment = (
-        f"! Load and torque on the ground at the foot of the mount of station {spec.station(i)}.\n"
-    )
+    comment = f"! Load and torque on the ground at the foot of the mount of {spec.label(i)}.\n"
     return f"{comment}REQUEST/{n + 1}, " + "\\ ".join(parts) + "\n"
 
 

@@ -11,6 +11,7 @@ from math import inf, sqrt
 
 import numpy as np
 
+from adamslite.cables.deck.form_rules import runs_in
 from adamslite.cables.description.vocabulary import Spec
 from adamslite.cables.layout.geometry import FreeSpan
 from adamslite.cables.statements.pieces import Piece, pieces
@@ -24,6 +25,8 @@ STILL = 2e-8
 # What a difference may be of the one before it: powers 2 and 2/3 of the sections; at most, where
 # sections are too few to show a power; and safety on what that leaves.
 FASTEST, SLOWEST, LARGEST, SAFETY = 0.25, 0.63, 1.0, 1.25
+# Of an output step: a weight that meets a wheel within it ended the run.
+HITS = 1.5
 # Keeps quotients finite.
 NOTHING = 1e-12
 WORDS = ("greatest", "least", "mean")
@@ -57,7 +60,8 @@ class Readings:
 def columns(spec: Spec, spans: list[FreeSpan]) -> tuple[str, ...]:
     """Names of all columns that are read, at any level."""
     found = [name for piece in pieces(spec, spans) for name in _tensions(spec, piece)]
-    return (*dict.fromkeys(found), *(name for i in _weights(spec) for name in _places(spec, i)))
+    moved = (i for i, each in enumerate(spec.route) if each.is_free or each.is_wheel)
+    return (*dict.fromkeys(found), *(name for i in moved for name in _places(spec, i)))
 
 
 def read_off(spec: Spec, spans: list[FreeSpan], run: Series) -> Readings:
@@ -80,12 +84,38 @@ def read_off(spec: Spec, spans: list[FreeSpan], run: Series) -> Readings:
     return Readings(found)
 
 
+def collision(spec: Spec, run: Series) -> str:
+    """The weight that runs into a wheel at the end of an early-ended run; empty without one.
+
+    Its span, sqrt(d^2 - R^2) long, would have no length before the next output step.
+    """
+    step = float(np.median(np.diff(run.time))) if len(run.time) > 1 else 0.0
+    for i, j in [*spec.pairs, *(pair[::-1] for pair in spec.pairs)]:
+        weight, wheel = spec.route[i], spec.route[j]
+        if step and weight.kind in ("mass", "body") and wheel.is_wheel:
+            squares = ((_way(spec, i, run) - _way(spec, j, run)) ** 2).sum(axis=0)
+            lengths = np.sqrt(np.maximum(squares - wheel.radius**2, 0.0))
+            before = np.interp(run.time[-1] - step, run.time, lengths)
+            left = lengths[-1] * step / max(before - lengths[-1], NOTHING)
+            if left < HITS * step:
+                return runs_in(spec, i, j, run.time[-1] + left)
+    return ""
+
+
+def _way(spec: Spec, i: int, run: Series) -> np.ndarray:
+    """Places of a station over time: (3, nt); where it is drawn if they are no columns."""
+    still = np.ones(len(run.time))
+    names = zip(_places(spec, i), spec.route[i].at, strict=True)
+    return np.array([run.columns.get(name, x * still) for name, x in names])
+
+
 def _weights(spec: Spec) -> list[int]:
     return [i for i, each in enumerate(spec.route) if each.is_free]
 
 
 def _places(spec: Spec, i: int) -> list[str]:
-    word = "PART" if spec.route[i].kind == "body" else "POINT_MASS"
+    each = spec.route[i]
+    word = "PART" if each.kind == "body" or each.is_wheel else "POINT_MASS"
     return [f"{word}/{spec.marker(i)}.{axis}" for axis in AXES]
 
 

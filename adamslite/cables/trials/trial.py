@@ -249,6 +249,8 @@ class _Choice:
         fall; else the cheapest of those that are as near to the finest one as the rungs are to one
         another, and as the one that is proposed."""
         trial, before, rungs = self.trial, self.proposed.model, self.rungs
+        if trial.hit and not rungs:
+            return Found(trial.failing(self.proposed))
         if len(rungs) < 2 or self._asks_for_more():
             return self._as_proposed(rungs[-1] if rungs else None)
         self.doubts, self.room = None, trial.off(rungs[-2], rungs[-1])[0]

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from math import inf
 
 from adamslite.cables.deck.scene import Setting, Written, written
+from adamslite.cables.description.messages import MESSAGES
 from adamslite.cables.description.vocabulary import MOST_SECTIONS
 from adamslite.cables.model import advice
 from adamslite.cables.model.demand import elastic_level
@@ -21,6 +22,7 @@ from adamslite.cables.trials.readings import (
     Readings,
     Series,
     apart,
+    collision,
     columns,
     differences,
     doubts_of,
@@ -107,7 +109,7 @@ class Runs:
         self.of, self.solve, self.allowance, self.spent = of, solve, allowance, spent
         self.known: dict[Option, Tried | None] = {}
         self.wanted = columns(of.spec, of.pieces)
-        self.ended, self.was_cut = "", False
+        self.hit, self.ended, self.was_cut = "", "", False
 
     def set_to(self, option: Option) -> Setting:
         """The description with a model."""
@@ -145,7 +147,8 @@ class Runs:
                 return again
             self.of = before
         if solution.ended:
-            self.ended, self.was_cut = solution.ended, solution.ended == TOO_LONG
+            self.hit, self.ended = self.hit or collision(self.of.spec, solution.run), solution.ended
+            self.was_cut = solution.ended == TOO_LONG
             return None
         read = read_off(self.of.spec, self.of.pieces, solution.run)
         option = replace(option, error=deck.model.error)
@@ -154,15 +157,22 @@ class Runs:
     def proven(self, proposed: Written) -> Written:
         """What is proposed, with another method where it does not come to an end."""
         steps = PROOF * self.allowance / self._work(proposed.model, 1.0)
-        ended = self.solve(proposed.text, (), steps).ended
-        if ended in ("", TOO_LONG) or proposed.model.method == LAST:
-            return proposed if ended in ("", TOO_LONG) else self._failing(ended)
+        solution = self.solve(proposed.text, self.wanted, steps)
+        if solution.ended in ("", TOO_LONG):
+            return proposed
+        self.hit, self.ended = collision(self.of.spec, solution.run), solution.ended
+        if self.hit or proposed.model.method == LAST:
+            return self.failing(proposed)
         self.of = replace(self.of, method=LAST)
         return self.proven(written(self.of))
 
-    def _failing(self, ended: str) -> Written:
-        """What is proposed, with the message that no method ends its run."""
-        return written(self.of.telling("does-not-end", ("model",), why=ended))
+    def failing(self, proposed: Written) -> Written:
+        """What is proposed, with the message why its run does not come to its end."""
+        if self.hit and any(each.code == "runs-into-wheel" for each in proposed.messages):
+            return proposed
+        hint = {"hint": MESSAGES["runs-into-wheel"].hint} if self.hit else {}
+        why = self.hit or self.ended
+        return written(self.of.telling("does-not-end", ("model",), why=why, **hint))
 
     def timed(self, one: Tried) -> float:
         """CPU [s] of a run; a short one is timed again, for the first is often disturbed."""
