@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 from pkgutil import iter_modules
 
@@ -160,8 +161,22 @@ def test_the_summary_as_json(pipeline, capsys) -> None:
     out, err = capsys.readouterr()
     summary = json.loads(out)
     assert err == ""
-    assert list(summary) == [*fall().summary, "deck", "commands", "output"]
+    assert list(summary) == [*fall().summary, "deck", "commands", "output", "notes"]
     assert summary["output"] == "cable.csv" and summary["max_violation"] is None
+
+
+def test_errors_of_the_results_are_told_in_every_summary(pipeline, capsys) -> None:
+    """As JSON among its notes; quietly on standard error, where another note is not told."""
+    found = fall()
+    off = "estimated global error 2.0e-01 in PART/2 x (30.00% of its range)"
+    pipeline.results = replace(found, meta={**found.meta, "accuracy": off})
+    assert main(["solve", "cable.adm", "--summary", "json"]) == 0
+    assert json.loads(capsys.readouterr().out)["notes"]["accuracy"] == off
+    assert main(["solve", "cable.adm", "--quiet"]) == 0
+    assert off in capsys.readouterr().err
+    pipeline.results = replace(found, meta={**found.meta, "accuracy": "equal steps"})
+    assert main(["solve", "cable.adm", "--quiet"]) == 0
+    assert capsys.readouterr().err == ""
 
 
 def test_the_table_on_standard_output(pipeline, capsys) -> None:

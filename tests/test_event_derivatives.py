@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import partial
 
 import numpy as np
 import pytest
@@ -48,6 +49,30 @@ def test_two_balls_that_fall_into_wind_at_one_time(method: str, way: str) -> Non
     by = ["POINT_MASS/2.QG[2]", "POINT_MASS/3.QG[2]"]
     found = slopes(text, of, by, method, way, end=0.6, error=1e-9)
     assert found == pytest.approx(-30.0 / np.sqrt(G) * np.eye(2), rel=1e-6, abs=1e-9)
+
+
+@pytest.mark.numerical
+@pytest.mark.parametrize(("method", "way"), WAYS)
+def test_derivatives_of_a_loosely_solved_impact_are_told(method: str, way: str) -> None:
+    """At ERROR=1e-3 a ball on a stiff floor has d z/d m = 0.0586 by GSTIFF, 0.0667 by RADAU; it is
+    0.06669 at 1e-8 by both.  What is more than 1 % off is told, and the estimate contains it."""
+    text = HEAD + f"ACCGRAV/KGRAV=-{G}\n" + (
+        "POINT_MASS/2, MASS=0.65, CM=2, QG=0,0,1.2, VZ=0.22\nMARKER/2, POINT_MASS=2\n"
+        "SFORCE/2, I=2, J=9, ACTIONONLY, FUNCTION=IMPACT(DZ(2),VZ(2),0.1,9.2E4,1.52,1.7,2E-4)\n"
+    )  # fmt: skip
+    of, by = ["POINT_MASS/2.z@end"], ["POINT_MASS/2.MASS"]
+    run = {"integrator": method, "steps": 40, "end": 1.013}
+    solve = al.sensitivities if way == "forward" else partial(_back, al.gradient)
+    found, tight = (solve(al.read(text + "END\n"), by, of, error=error, **run)
+                    for error in (1e-3, 1e-9))  # fmt: skip
+    off = abs(found.gradient[0, 0] / tight.gradient[0, 0] - 1)
+    assert off < found.errors[0]
+    assert (off > 0.02) == (method == "GSTIFF")
+    assert off < 0.01 or "a difference of two runs" in found.notes["POINT_MASS/2.MASS"]
+
+
+def _back(gradient, deck, by, of, **run):
+    return gradient(deck, of, by, **run)
 
 
 @pytest.mark.numerical
@@ -150,7 +175,7 @@ def test_derivatives_that_differences_do_not_confirm(monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(study, "slope", lambda *given: 1.1 * measures.slope(*given))
     found = al.sensitivities(text, by, of, end=1.0, steps=10, error=1e-6)
     assert "difference of two runs is 0.1" in found.notes["SFORCE/2.FUNCTION[0]"]
-    assert found.errors[0] == pytest.approx(0.1, rel=1e-3) and found.errors[1] < 1e-3
+    assert found.errors[0] == pytest.approx(0.11, rel=1e-3) and found.errors[1] < 1e-3
 
 
 TOUCH = """a ball that touches a soft floor twice, with steps of 2e-14 s behind the touch

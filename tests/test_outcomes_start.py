@@ -80,3 +80,14 @@ def test_no_equilibrium_names_the_balance_that_fails():
 def test_without_an_end_nothing_runs():
     with pytest.raises(UsageError, match="There is no end time"):
         al.simulate(al.read(FALLING + "END\n"))
+
+
+@pytest.mark.parametrize("method", ["GSTIFF", "ABAM", "HHT"])
+def test_equations_without_finite_derivatives_are_told(method):
+    """The constraint depends on the time by a slope that it has not: the matrix has no number."""
+    results = ended_early(
+        GROUND + "PART/2, MASS=1, CM=2, IP=1,2,3, QG=1,0,0\nMARKER/2, PART=2\n"
+        "GCON/1, FUNCTION=DM(2,1)-STEP(0.5,2,1E-3,VX(2,1),TIME)\nEND\n",
+        integrator=method,
+    )
+    assert not results.success and reason(results)

@@ -28,6 +28,8 @@ NOTES = (
 
 #: The comment on units of a deck without UNITS.
 AS_GIVEN = "as in the deck"
+#: What a note of the accuracy begins with where results are off.
+ESTIMATE = "estimated global error"
 NO_UNITS = "the deck has no UNITS: force = mass * acceleration in whatever units its numbers have"
 
 

@@ -77,9 +77,7 @@ def _swept(study: Study, of: Iterable[str], by: Iterable[str] | str) -> Sensitiv
         made["curves"] = np.zeros((len(named), 0, 0))
 
     session = study.run(follow)
-    along: Along | None = made.get("along")
-    found = study.gathered(named, session, made)
-    return study.compared(found, named, session, made["several"], along.coupled if along else 0)
+    return study.compared(study.gathered(named, session, made), named, session, made)
 
 
 def _estimated(system: System, method: str, most: Direction, budget: Budget) -> Along | None:
@@ -126,5 +124,6 @@ def _gradients(
     return {
         "time": time, "names": tuple(names[k] for k in kept), "values": values[:, kept],
         "measures": measures, "gradient": gradient, "several": several,
+        "events": system.count.events,
         "stopped": Outcome.CPU_LIMIT.sentence if len(found) < len(measures) else "",
     }  # fmt: skip

@@ -206,10 +206,11 @@ def compared(
             noise += DOUBT * _length(near - difference(lot, 2.0))
             count += 2
         wrong = off > CONFIRMED * size + noise
+        # What differences are off by themselves.
+        shares = off / np.maximum(size, noise)
+        errors[lot] = np.fmax(errors[lot], (shares + CONFIRMED * wrong).max())
         if wrong.any():
-            share = float((off[wrong] / np.maximum(size[wrong], noise[wrong])).max())
-            errors[lot] = np.fmax(errors[lot], share)
-            notes |= {found.by[j]: APART.format(share=share) for j in lot}
+            notes |= {found.by[j]: APART.format(share=shares[wrong].max()) for j in lot}
     return replace(found, notes=notes, errors=errors), count
 
 

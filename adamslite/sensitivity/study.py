@@ -269,34 +269,35 @@ class Study:
         found: Sensitivities,
         named: list[Named],
         session: Taped,
-        several: int,
-        coupled: int,
+        made: Mapping[str, Any],
     ) -> Sensitivities:
-        """Derivatives of a run with ``several`` events at a time, beside differences of runs."""
-        if not several or found.stopped:
+        """Derivatives of a run with events, beside differences of runs."""
+        along, several = made.get("along"), made["several"]
+        if not (several or made["events"]) or found.stopped:
             return found
         error = min(session.chosen.settings.error, TIGHT)
         method = session.chosen.settings.method
 
         def run(values: Mapping[str, float]) -> Columns:
-            made: list[Columns] = []
+            ended: list[Columns] = []
 
             def follow(system: System, *_: Any) -> None:
-                made.append((system.times.copy(), *columns(system, recorded(system))))
+                ended.append((system.times.copy(), *columns(system, recorded(system))))
 
             kernels = of_deck(self.kernels, self.deck.with_values(dict(values)))
             self.run(follow, kernels, method=method, error=error)
-            return made[0]
+            return ended[0]
 
-        notes = [COUPLED] if coupled else []
+        notes = [COUPLED] if several and along and along.coupled else []
         try:
             sizes = {each.name: self.step(each) / SHARE for each in named}
             found, count = compared(found, run, sizes, error)
-            notes.append(SEVERAL.format(count=count))
+            notes += [SEVERAL.format(count=count)] if several else []
         except (DeckError, RunFailed, UsageError) as fault:
             notes.append(FAILED.format(fault=fault))
         notes = [each for each in (found.notes.get("events"), *notes) if each]
-        return replace(found, notes={**found.notes, "events": "; ".join(notes)})
+        told = {"events": "; ".join(notes)} if notes else {}
+        return replace(found, notes={**found.notes, **told})
 
     def gathered(
         self, named: list[Named], session: Taped, made: Mapping[str, Any]
@@ -339,10 +340,8 @@ def sensitivities(
     study = Study(scene, commands, options)
     study.progress = progress
     with within_memory(study.memory):
-        found, named, session, along = _worked_out(study, by, of)
-        if along and compare:
-            return study.compared(found, named, session, along.several, along.coupled)
-        return found
+        found, named, session, made = _worked_out(study, by, of)
+        return study.compared(found, named, session, made) if compare else found
 
 
 def noted(along: Along | None, errors: Mapping[str, float]) -> dict[str, str]:
@@ -353,7 +352,7 @@ def noted(along: Along | None, errors: Mapping[str, float]) -> dict[str, str]:
 
 def _worked_out(
     study: Study, by: Iterable[str], of: Iterable[str]
-) -> tuple[Sensitivities, list[Named], Taped, Along | None]:
+) -> tuple[Sensitivities, list[Named], Taped, Mapping[str, Any]]:
     named = study.named(by)
     if not named:
         raise UsageError("derivatives by what? --by NAME; `adamslite names DECK` lists numbers")
@@ -389,8 +388,10 @@ def _worked_out(
         made.update(
             time=time, names=tuple(names[k] for k in kept), values=values[:, kept], curves=curves,
             measures=measures, gradient=gradient, errors=errors,
+            several=made["along"].several if "along" in made else 0,
+            events=system.count.events,
             notes=noted(made.get("along"), off) | dict.fromkeys(still, UNUSED),
         )  # fmt: skip
 
     session = study.run(follow, planar=PLANAR)
-    return study.gathered(named, session, made), named, session, made.get("along")
+    return study.gathered(named, session, made), named, session, made

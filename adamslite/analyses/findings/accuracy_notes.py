@@ -34,9 +34,10 @@ from adamslite.analyses.findings.standstill import (
     largest_travel,
 )
 from adamslite.integrators import contract
-from adamslite.language.expression import calls
+from adamslite.language.expression import Call, calls
 from adamslite.language.method import FIXED, FIXED_BY_HINIT, NUMBERS
 from adamslite.results.outcomes import Outcome
+from adamslite.results.summary import ESTIMATE
 
 if TYPE_CHECKING:
     from adamslite.analyses.dynamics.dynamic import Settings
@@ -59,6 +60,10 @@ GAPS = 1e3
 LIMP = 1e-3
 # Of joints, ERRORs of both runs that it has to exceed: which of their coordinates are free is not
 # looked at.
+# Angles that go from pi to -pi, which are one.
+WRAPPED, TURN = ("PSI", "THETA", "PHI", "YAW", "PITCH", "ROLL"), 2.0 * np.pi
+# Of a vector: a component within this share of it is judged by as much.
+PART = 1e-3
 # A range within errors of turns is theirs where it is the second share of itself in the other run.
 HELD, VANISHING = 100.0, 0.5
 # Share of its range that a channel may be off untold: this at a small ERROR, and more at a large
@@ -223,15 +228,21 @@ def _channels(
         for name, node in zip(each.result_names, each.outputs(model), strict=True)
         if any(calls(node, *NUMBERS))
     }  # fmt: skip
+    wrapped, whole = _measured(model)
     for name, k in column.items():
         kind, _, _ = name.partition("/")
         if kind in ("DIFF", "VARIABLE", "REQUEST", "MREQUEST") and name not in ours:
             x, off = values[0][:, k], np.abs(values[0][:, k] - values[1][:, k])
+            off = np.minimum(off, np.abs(off - TURN)) if name in wrapped else off
             size = float(np.abs(x).max(initial=0.0))
             size = max(size, LIMP if kind == "DIFF" else 1.0)
             if kind != "DIFF" and len(off) > MANY:  # a jump that is shifted is one row far off
                 off = np.minimum(off, np.append(off[1:], off[-1:]))
-            yield Channel("states", name, off, max(float(np.ptp(x)), error * size))
+            least_range = error * size
+            if name in whole and whole[name] in column:
+                vector = np.abs(values[0][:, column[whole[name]]])
+                least_range = max(least_range, float(vector.max()) * min(error / FELT, PART))
+            yield Channel("states", name, off, max(float(np.ptp(x)), least_range))
     for i, j, element in islice(_pairs(model), ELEMENTS):
         seen, other_way = one.seen(i, j), other.seen(i, j)
         if seen is not None and other_way is not None:
@@ -240,6 +251,20 @@ def _channels(
             turning = most < error * float(np.abs(seen.place).max(initial=1.0))
             rests = np.where(turning & (less < VANISHING * most), inf, rest)
             yield from _apart(element.label, seen, other_way, rests, rest)
+
+
+def _measured(model: Model) -> tuple[set[str], dict[str, str]]:
+    """Columns of REQUESTs that are angles; and those that are components of a vector, by the column
+    of its length."""
+    wrapped, whole = set(), {}
+    for each in model.deck.of("REQUEST"):
+        if each.kind or not each.called.isdisjoint(WRAPPED):
+            named = zip(each.result_names, each.outputs(model), strict=True)
+            wrapped |= {f"{each.label}.{name}" for name, node in named
+                        if isinstance(node, Call) and node.name in WRAPPED}  # fmt: skip
+        for k in (2, 3, 4, 6, 7, 8) if each.kind else ():
+            whole[f"{each.label}.F{k}"] = f"{each.label}.F{1 if k < 5 else 5}"
+    return wrapped, whole
 
 
 def _pairs(model: Model) -> Iterator[tuple[Any, Any, Any]]:
@@ -294,9 +319,7 @@ def _estimated(
     longest = system.longest
     limited = steps * longest * LIMITED < end - times[0]
     remedy = f"a shorter HMAX than {longest:.3g}" if limited else _remedy(settings)
-    yield (
-        f"estimated global error {', '.join(texts)} after {steps} steps: {remedy} keeps more digits"
-    )
+    yield (f"{ESTIMATE} {', '.join(texts)} after {steps} steps: {remedy} keeps more digits")
     if since < inf:
         yield f"from t = {since:.4g} on the result is not determined at this ERROR"
 

@@ -167,6 +167,8 @@ def _undetermined(system: System) -> str:
     if system.nz > MOST_SEARCHED:
         return _where(system)
     matrix, kept = _acceleration_matrix(system)
+    if not np.isfinite(matrix).all():
+        return _open(system, kept)
     _, sizes, rows = np.linalg.svd(matrix)
     if sizes[-1] > RANK * sizes[0]:
         return _open(system, kept)

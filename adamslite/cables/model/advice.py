@@ -106,7 +106,8 @@ def integrator(of: Demand, p: float, chosen: int) -> tuple[str, str]:
         return "HHT", "friction that a small sliding speed builds up"
     if not is_lively(of, p):
         return "GSTIFF", "slow motion, which long steps of high order follow"
-    if chosen == 2 and not of.tied:
+    damped = max((each.network.damping_time for each in of.machines), default=0.0)
+    if chosen == 2 and not of.tied and 2 * damped * elements(of, p) < of.transit:
         return "VERLET", "fronts in masses that nothing ties together"
     return "HHT", "waves are followed with many small steps"
 

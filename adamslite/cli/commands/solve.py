@@ -247,10 +247,16 @@ def _summarize(
     output: str,
     files: list[Written],
 ) -> None:
+    from adamslite.results.summary import ESTIMATE, notes
+
     if args.summary == "json":
         drawn = {what: str(path) for what, path in files if what == PAGE}
-        sys.stdout.write(_as_json({**results.summary, **_files(scene, output), **drawn}) + "\n")
-    elif not args.quiet:
+        told = {**results.summary, **_files(scene, output), **drawn, "notes": dict(notes(results))}
+        sys.stdout.write(_as_json(told) + "\n")
+    elif args.quiet:
+        off = results.meta.get("accuracy", "")
+        sys.stderr.write(f"{scene.title}: {off}\n" if ESTIMATE in off else "")
+    else:
         _tell_summary(scene, results, output, files)
     _tell_trust(scene, args, results)
     if not results.outcome.is_requested:
