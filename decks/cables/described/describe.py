@@ -21,6 +21,7 @@ sys.path[:0] = [str(HERE), str(HERE.parent)]
 import arrest  # noqa: E402
 from described_cases import write  # noqa: E402
 from formulas import G, Winch, sliding_ratio  # noqa: E402
+from impacts import deck_kink, deck_sheaves  # noqa: E402
 from laws import Move  # noqa: E402
 from leaning import mount, wander  # noqa: E402
 from sliding import bead, ropeway  # noqa: E402
@@ -177,8 +178,11 @@ def folded() -> str:
 
 
 def main() -> None:
-    cases = (drum, belt, slip, crane, arrestment, reels, mount, wander, ring, folded, bead, ropeway)
-    write(HERE, {case.__name__: case for case in cases})
+    cases = (
+        *(drum, belt, slip, crane, arrestment, deck_sheaves, deck_kink),
+        *(reels, mount, wander, ring, folded, bead, ropeway),
+    )
+    write(HERE, {case.__name__.replace("_", "-"): case for case in cases})
 
 
 if __name__ == "__main__":
