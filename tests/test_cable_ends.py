@@ -130,3 +130,44 @@ def test_both_ends_of_a_hanging_cable_have_its_tension(elements: int, support: s
     )
     np.testing.assert_allclose(results["REQUEST/1.F3"], 10 * G, rtol=1e-4)
     np.testing.assert_allclose(results["REQUEST/1.F2"], 50 * G, rtol=1e-4)
+
+
+@pytest.mark.parametrize("speed", [-40.0, 25.0])
+def test_a_wheel_takes_stretched_cable_from_a_long_run(speed: float) -> None:
+    """A weightless wheel that a winch pulls at U of unstretched cable: U (1 + e) = c (e - e0), so
+    that T = (T0 + rho c U)/(1 - U/c); with 1 + e0 in its place it is U^2 rho off, 1.3 %."""
+    stiffness, rho, tension = 1e6, 1.0, 6e4
+    results = solve(
+        f"""
+        end = 0.05
+        steps = 50
+        gravity = [0, 0, 0]
+        [cable]
+        EA = {stiffness}
+        rho = {rho}
+        pretension = {tension}
+        damping = 0.5
+        [[route]]
+        kind = "winch"
+        at = [0, 0, 0]
+        radius = 0.5
+        turn = 1
+        payout = "{speed}*TIME"
+        [[route]]
+        kind = "pulley"
+        at = [4, 0, 0]
+        radius = 0.5
+        inertia = 1e-4
+        turn = 1
+        [[route]]
+        kind = "run"
+        at = [4.5, -3, 0]
+        [model]
+        level = 3
+        form = "ale"
+        elements = 2
+        """
+    )
+    c, taken = np.sqrt(stiffness / rho), -speed
+    wanted = (tension + rho * c * taken) / (1 - taken / c)
+    assert results["REQUEST/2.F2"][-1] == pytest.approx(wanted, rel=1e-4)

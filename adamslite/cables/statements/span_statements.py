@@ -118,19 +118,22 @@ def _rigid(spec: Spec, piece: Piece) -> str:
 
 
 def _run(spec: Spec, piece: Piece) -> str:
-    """A long straight run of the cable: T0 + rho c times the speed of the cable out of it."""
+    """A long straight run of the cable: T = T0 + rho c times the speed of the cable out of it, v =
+    (1 + T/EA) times the unstretched cable that a wheel takes."""
     p, root = piece.number, spec.route[piece.root]
-    speed = f"-({feed(spec, piece, 1)})*(1+{number(piece.tension / spec.cable.stiffness)})"
     text = "! A long run goes on from here: it pulls with T0 + rho c times the speed out of it.\n"
-    if not root.is_wheel:
+    start = number(piece.tension)
+    if root.is_wheel:
+        taken = f"({feed(spec, piece, 1)})"
+        pull = f"({start}-SQRT(EA*rho)*{taken})/(1+SQRT(rho/EA)*{taken})"
+        text += _on_axle(spec, piece) if root.leans or root.mount else ""
+    else:
         end = spec.marker(piece.tip)
         text += f"MARKER/{end}, PART=1, QP={triple(piece.place)}, ZP="
         text += f"{triple(add(piece.place, piece.along))}\n"
-        speed = f"-VZ({spec.marker(piece.root)},{end},{end})"
+        pull = f"{start}-SQRT(EA*rho)*VZ({spec.marker(piece.root)},{end},{end})"
         text += f"SFORCE/{end}, ACTIONONLY, I={spec.marker(piece.root)}, J={end}, FUNCTION=T{p}\n"
-    elif root.leans or root.mount:
-        text += _on_axle(spec, piece)
-    return text + f"VARIABLE/T{p}, FUNCTION={number(piece.tension)}+SQRT(EA*rho)*({speed})\n"
+    return text + f"VARIABLE/T{p}, FUNCTION={pull}\n"
 
 
 def _on_axle(spec: Spec, piece: Piece) -> str:
