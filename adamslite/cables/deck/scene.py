@@ -158,10 +158,12 @@ def _drawn(text: str, given: Spec, faults: Faults) -> Drawn:
 
 def _ready(text: str, rope: Rope) -> Drawn:
     """Ready to be written."""
-    given = damped(rope.spec, rope.spans, rope.laws)
-    spec = _essential(given, rope.spans)
-    moves = estimate_moves(as_borne(spec), rope.spans, rope.laws)
-    return Drawn(text, given, spec, rope.spans, moves, rope.laws, rope.faults)
+    moves = estimate_moves(as_borne(rope.spec), rope.spans, rope.laws)
+    cable = damped(as_borne(rope.spec), rope.spans, moves, rope.laws).cable
+    given = replace(rope.spec, cable=cable)
+    return Drawn(
+        text, given, _essential(given, rope.spans), rope.spans, moves, rope.laws, rope.faults
+    )
 
 
 def chosen(of: Setting, faults: Faults, why: Reasons | None = None) -> CableModel:

@@ -7,7 +7,7 @@ h = R/10, R/14, R/20 and R/28 swings by 1.5, 0.9, 0.25 and 0.12 % of the tension
 """
 
 from dataclasses import dataclass, replace
-from math import ceil, pi, sqrt
+from math import ceil, sqrt
 
 from adamslite.cables.description.components import Cable
 from adamslite.cables.description.messages import Faults
@@ -19,7 +19,6 @@ from adamslite.cables.model.advice import error_bound, integrator
 from adamslite.cables.model.demand import Demand
 from adamslite.cables.model.estimate import Laws, Moves, moving_mass
 from adamslite.cables.model.machine import machine
-from adamslite.cables.model.network import first_axial
 from adamslite.cables.model.response import Errors, Machine, is_usable
 from adamslite.cables.vectors import AXES, ZERO, add, dot, part_across, unit
 
@@ -35,8 +34,6 @@ RIGID_ERROR = 1e-7
 GROWN, SHORTEST = 0.1, 0.05
 # Of the least load: tensions that fall below zero by less need not.
 SLACK = 0.1
-# Of a span, for its first axial mode.
-AXIAL_SECTIONS = 8
 # An arc that is long enough to have to be round [rad].
 LIES = 0.1
 
@@ -195,19 +192,16 @@ def _tell_pretension(spec: Spec, spans: list[FreeSpan], level: int, faults: Faul
                    pretension=spec.cable.pretension)  # fmt: skip
 
 
-def damped(spec: Spec, spans: list[FreeSpan], prescribed: Laws) -> Spec:
-    """With the time of its damping from the share of the critical one of its first axial mode: as
-    it starts or, where it has no linear model, with its ends held."""
-    cable, rate = spec.cable, 0.0
-    if not cable.damping:
+def damped(spec: Spec, spans: list[FreeSpan], moves: Moves, prescribed: Laws) -> Spec:
+    """With the time of its damping from the share of the critical one of a section: of those that
+    the accuracy asks for without damping, whatever their number is."""
+    cable = spec.cable
+    if not cable.damping or cable.damping_time:
         return spec
-    found = None
-    if _is_linear(spec, spans):
-        found = machine(spec, spans, tensions(spec, spans), prescribed)
-    if found and is_usable(found):
-        rate = first_axial(found.network, AXIAL_SECTIONS)
-    held = (2 if spec.closed else 1) * pi * cable.speed / sum(span.length for span in spans)
-    return replace(spec, cable=replace(cable, damping_time=2 * cable.damping / (rate or held)))
+    of = demand_of(replace(spec, elements=0), spans, moves, prescribed)
+    section = of.length / demand.elements(of, spec.accuracy)
+    time = 2 * cable.damping * section / cable.speed
+    return replace(spec, cable=replace(cable, damping_time=time))
 
 
 def _is_linear(spec: Spec, spans: list[FreeSpan]) -> bool:
@@ -375,10 +369,8 @@ def _integrator(
 
 def _damping(cable: Cable) -> list[str]:
     """What a share of critical damping comes to."""
-    if not cable.damping:
-        return []
-    found = cable.damping / cable.damping_time / pi
-    return [f"first axial mode {found:.3g} Hz, damping_time {cable.damping_time:.3g} s"]
+    found = f"damping {cable.damping:g} is damping_time = {cable.damping_time:.3g} s"
+    return [found] if cable.damping else []
 
 
 def _figures(of: Demand, moves: Moves) -> list[str]:

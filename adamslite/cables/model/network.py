@@ -293,15 +293,6 @@ def _at_ends(at: Sections, pulls: np.ndarray, fast: np.ndarray, rests: bool = Tr
     return found
 
 
-def first_axial(of: Network, n: int) -> float:
-    """Rate of the slowest mode of a network with `n` sections in a span that stretches them more
-    than it swings; 0 without one."""
-    at = Sections(of, n)
-    modes = _modes(of, at)
-    stretched = at.k @ (at.b[:, at.free] @ modes.shapes) ** 2
-    return float(min(modes.rates[stretched > modes.rates**2 / 2], default=0.0))
-
-
 def _rigid(of: Network, at: Sections, ways: np.ndarray, extra: np.ndarray | None) -> Motion:
     """B u = -d: coordinates along the null space of B, tensions from what they lack."""
     free, given = at.free, at.given

@@ -6,9 +6,10 @@
          --( + o                                    JPRIM/m  keeps the next point in the plane that
             '-'  MARKER/m                                    touches the rim there
 
-A link that turns by b along the route winds up R b of the cable that the rim brings. It has no mass
-and the torque -R T of the rim, so that the cable loads nothing but the axle. One that wanders is a
-guide of some mass, and slides along the axle against a spring and a damper.
+A link that turns by b along the route winds up R b of the cable that the rim brings. It has the
+torque -R T of the rim, so that the cable loads nothing but the axle, and next to no mass: without
+any its block of the matrix is singular, and the whole is eliminated with pivoting, as a dense one.
+One that wanders is a guide of some mass, and slides along the axle against a spring and a damper.
 """
 
 from adamslite.cables.description.vocabulary import Spec, Station
@@ -17,6 +18,8 @@ from adamslite.cables.statements.wheels import carrier, travel, triple
 from adamslite.cables.vectors import ZERO, Vector, add, cross, dot
 
 AXLE = 900
+# Of the cable that is a radius long: the mass of a link.
+LIGHT = 1e-6
 
 
 def comes(spec: Spec, i: int, m: int, order: int = 0) -> str:
@@ -41,7 +44,7 @@ def link(spec: Spec, i: int, m: int, place: Vector, to: int, spin: float) -> str
     kind = "CYLINDRICAL" if each.wander else "REVOLUTE"
     text = (
         "! The link that the cable leaves on turns with it.\n"
-        f"PART/{m}{_mass(each, m)}, QG={triple(each.at)}{_start(each, out, spin)}\n"
+        f"PART/{m}{_mass(spec, each, m)}, QG={triple(each.at)}{_start(each, out, spin)}\n"
         f"MARKER/{m}, PART={m}, QP={triple(out)}, ZP={triple(add(out, out))}\n"
         f"MARKER/{m + AXLE}, PART={m}{own}\n"
         f"JOINT/{m}, {kind}, I={m + AXLE}, J={n}\n"
@@ -54,8 +57,12 @@ def _own_axis(axis: Vector) -> str:
     return "" if axis == (0.0, 0.0, 1.0) else f", ZP={triple(axis)}"
 
 
-def _mass(each: Station, m: int) -> str:
-    return f", MASS={number(each.wander.mass)}, CM={m}" if each.wander else ""
+def _mass(spec: Spec, each: Station, m: int) -> str:
+    if each.wander:
+        return f", MASS={number(each.wander.mass)}, CM={m}"
+    mass = LIGHT * spec.cable.density * each.radius
+    inertia = ",".join([number(mass * each.radius**2)] * 3)
+    return f", MASS={number(mass)}, CM={m + AXLE}, IP={inertia}"
 
 
 def _start(each: Station, out: Vector, spin: float) -> str:
