@@ -139,14 +139,14 @@ def test_a_wheel_takes_stretched_cable_from_a_long_run(speed: float) -> None:
     stiffness, rho, tension = 1e6, 1.0, 6e4
     results = solve(
         f"""
-        end = 0.05
+        end = 0.1
         steps = 50
         gravity = [0, 0, 0]
         [cable]
         EA = {stiffness}
         rho = {rho}
         pretension = {tension}
-        damping = 0.5
+        damping_time = 5e-3
         [[route]]
         kind = "winch"
         at = [0, 0, 0]

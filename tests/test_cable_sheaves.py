@@ -135,7 +135,7 @@ error = 1e-9
 [cable]
 EA = 1e6
 rho = 1e-4
-damping = 0.5
+damping_time = 3e-5
 pulls_only = true
 [[route]]
 kind = "mass"

@@ -127,7 +127,7 @@ def test_a_run_between_winches_is_sped_up(elements: int) -> None:
         [cable]
         EA = 1e7
         rho = 3.0
-        damping = 0.9
+        damping_time = {0.06 / elements}
         pretension = 2e4
         [[route]]
         kind = "winch"
