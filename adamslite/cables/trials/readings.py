@@ -2,7 +2,7 @@
 
 Greatest, least and mean tension at both ends of every span, as shares of the greatest there, and
 greatest, least and mean place of every weight, as shares of its way. Tensions are means over half
-the time of a wave along the cable: a front's overshoot in a chain of masses is none of the cable's.
+the time of a wave along the span: a front's overshoot in a chain of masses is none of the cable's.
 """
 
 from collections.abc import Mapping, Sequence
@@ -18,7 +18,7 @@ from adamslite.cables.statements.pieces import Piece, pieces
 from adamslite.cables.statements.sliders import is_wire
 from adamslite.cables.statements.span_statements import is_kept
 
-# Of the time of a wave along the longest span: what a tension is the mean of.
+# Of the time of a wave along the span: what a tension is the mean of.
 SEEN = 0.5
 # Of the length of the cable: weights that move by less do not.
 STILL = 2e-8
@@ -67,10 +67,10 @@ def columns(spec: Spec, spans: list[FreeSpan]) -> tuple[str, ...]:
 def read_off(spec: Spec, spans: list[FreeSpan], run: Series) -> Readings:
     """The figures of a run."""
     found: dict[Key, tuple[np.ndarray, float]] = {}
-    transit = max(span.length for span in spans) / spec.cable.speed
     step = (run.time[-1] - run.time[0]) / max(len(run.time) - 1, 1)
-    window = round(SEEN * transit / step) if step > 0 else 0
     for piece in pieces(spec, spans):
+        transit = piece.span.length / spec.cable.speed
+        window = round(SEEN * transit / step) if step > 0 else 0
         for end, pull in _pulls(spec, piece, run).items():
             mean = smoothed(pull, window)
             found["tension", piece.number, end] = _summed(mean), float(np.abs(mean).max())
