@@ -28,8 +28,8 @@ NOTES = (
 
 #: The comment on units of a deck without UNITS.
 AS_GIVEN = "as in the deck"
-#: What a note of the accuracy begins with where results are off.
-ESTIMATE = "estimated global error"
+#: What the note of the accuracy says where results have lost the motion.
+UNDETERMINED = "the result is not determined at this ERROR"
 NO_UNITS = "the deck has no UNITS: force = mass * acceleration in whatever units its numbers have"
 
 

@@ -37,7 +37,7 @@ from adamslite.integrators import contract
 from adamslite.language.expression import Call, calls
 from adamslite.language.method import FIXED, FIXED_BY_HINIT, NUMBERS
 from adamslite.results.outcomes import Outcome
-from adamslite.results.summary import ESTIMATE
+from adamslite.results.summary import UNDETERMINED
 
 if TYPE_CHECKING:
     from adamslite.analyses.dynamics.dynamic import Settings
@@ -319,9 +319,11 @@ def _estimated(
     longest = system.longest
     limited = steps * longest * LIMITED < end - times[0]
     remedy = f"a shorter HMAX than {longest:.3g}" if limited else _remedy(settings)
-    yield (f"{ESTIMATE} {', '.join(texts)} after {steps} steps: {remedy} keeps more digits")
+    yield (
+        f"estimated global error {', '.join(texts)} after {steps} steps: {remedy} keeps more digits"
+    )
     if since < inf:
-        yield f"from t = {since:.4g} on the result is not determined at this ERROR"
+        yield f"from t = {since:.4g} on {UNDETERMINED}"
 
 
 def _remedy(settings: Settings) -> str:

@@ -73,7 +73,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--summary",
         choices=("text", "json"),
         default="text",
-        help="summary as text to standard error (default) or as JSON to standard output",
+        help="summary as text to standard error (default) or as JSON, notes included, to standard "
+        "output",
     )
 
 
@@ -247,7 +248,7 @@ def _summarize(
     output: str,
     files: list[Written],
 ) -> None:
-    from adamslite.results.summary import ESTIMATE, notes
+    from adamslite.results.summary import UNDETERMINED, notes
 
     if args.summary == "json":
         drawn = {what: str(path) for what, path in files if what == PAGE}
@@ -255,7 +256,7 @@ def _summarize(
         sys.stdout.write(_as_json(told) + "\n")
     elif args.quiet:
         off = results.meta.get("accuracy", "")
-        sys.stderr.write(f"{scene.title}: {off}\n" if ESTIMATE in off else "")
+        sys.stderr.write(f"{scene.title}: {off}\n" if UNDETERMINED in off else "")
     else:
         _tell_summary(scene, results, output, files)
     _tell_trust(scene, args, results)
