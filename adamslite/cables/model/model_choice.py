@@ -194,11 +194,12 @@ def _tell_pretension(spec: Spec, spans: list[FreeSpan], level: int, faults: Faul
 
 def damped(spec: Spec, spans: list[FreeSpan], moves: Moves, prescribed: Laws) -> Spec:
     """With the time of its damping from the share of the critical one of a section: of those that
-    the accuracy asks for without damping, whatever their number is."""
+    the accuracy asks for without damping in a cable that also pushes, whatever there are."""
     cable = spec.cable
     if not cable.damping or cable.damping_time:
         return spec
-    of = demand_of(replace(spec, elements=0), spans, moves, prescribed)
+    free = replace(spec, elements=0, cable=replace(cable, pulls_only=False))
+    of = demand_of(free, spans, moves, prescribed)
     section = of.length / demand.elements(of, spec.accuracy)
     time = 2 * cable.damping * section / cable.speed
     return replace(spec, cable=replace(cable, damping_time=time))
