@@ -119,7 +119,7 @@ def test_cable_that_runs_presses_less() -> None:
         [cable]
         EA = 2e7
         rho = 1
-        damping = 0.3
+        damping_time = 8e-4
         [[route]]
         kind = "mass"
         at = [-0.2, -60, 0]
