@@ -25,8 +25,8 @@ STILL = 2e-8
 # What a difference may be of the one before it: powers 2 and 2/3 of the sections; at most, where
 # sections are too few to show a power; and safety on what that leaves.
 FASTEST, SLOWEST, LARGEST, SAFETY = 0.25, 0.63, 1.0, 1.25
-# Of an output step: a weight that meets a wheel within it ended the run.
-HITS = 1.5
+# Output steps: a weight that meets a wheel within so many ended the run, so many ago at most.
+HITS, LATE = 1.5, 3.5
 # Keeps quotients finite.
 NOTHING = 1e-12
 WORDS = ("greatest", "least", "mean")
@@ -87,18 +87,19 @@ def read_off(spec: Spec, spans: list[FreeSpan], run: Series) -> Readings:
 def collision(spec: Spec, run: Series) -> str:
     """The weight that runs into a wheel at the end of an early-ended run; empty without one.
 
-    Its span, sqrt(d^2 - R^2) long, would have no length before the next output step.
+    Its span, sqrt(d^2 - R^2) long, would have no length before the next output step; behind that
+    the last rows may have any.
     """
     step = float(np.median(np.diff(run.time))) if len(run.time) > 1 else 0.0
+    late = run.time[1:] > run.time[-1] - LATE * step if step else ()
     for i, j in [*spec.pairs, *(pair[::-1] for pair in spec.pairs)]:
         weight, wheel = spec.route[i], spec.route[j]
         if step and weight.kind in ("mass", "body") and wheel.is_wheel:
             squares = ((_way(spec, i, run) - _way(spec, j, run)) ** 2).sum(axis=0)
             lengths = np.sqrt(np.maximum(squares - wheel.radius**2, 0.0))
-            before = np.interp(run.time[-1] - step, run.time, lengths)
-            left = lengths[-1] * step / max(before - lengths[-1], NOTHING)
-            if left < HITS * step:
-                return runs_in(spec, i, j, run.time[-1] + left)
+            left = lengths[1:] / np.maximum(-np.diff(lengths), NOTHING)  # in steps
+            for k in np.flatnonzero(late & (left < HITS))[:1]:
+                return runs_in(spec, i, j, run.time[k + 1] + left[k] * step)
     return ""
 
 
